@@ -109,7 +109,7 @@ class Evidence:
         failed = [
             one
             for one in self.observations
-            if one.case.part == part.test and one.verdict == "wrong"
+            if one.case.part == part.test and (one.verdict == "wrong" or one.advice)
         ]
         hint = self._hint(failed[0]) if failed else None
         if not hint:

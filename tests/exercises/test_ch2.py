@@ -390,8 +390,8 @@ def test_explorer_that_has_seen_nothing(answer, rng):
     answer.agrees(*nothing, size, 1, rng.uniform(1, 3), rng.uniform(0.5, 0.9))
 
 
-def arrivals(answer, worlds):
-    """How many robots arrive that the student's function steers, without reflexes."""
+def steered(answer, worlds):
+    """How the drives end of robots that the student's function steers, without reflexes."""
     from robonav.robot import navigate
 
     def policy(sensing, rng):
@@ -408,16 +408,23 @@ def arrivals(answer, worlds):
         )
         return actions
 
-    return int(navigate(policy, worlds, max_steps=250, reflex=None).success.sum())
+    return navigate(policy, worlds, max_steps=250, reflex=None).outcome
 
 
 def steers(answer, rng, obstacles, least):
     """Require that many of 200 robots arrive. Among fewer, a robot that goes straight could pass by luck."""
+    from robonav.grading.drives import require_arrivals
     from robonav.robot import random_worlds
 
-    arrived = arrivals(answer, random_worlds(200, obstacles, seed=rng))
-    answer.check(
-        arrived >= least, f"expected {least} arrivals in 200 worlds, got {arrived}"
+    outcomes = steered(answer, random_worlds(200, obstacles, seed=rng))
+    require_arrivals(
+        answer,
+        outcomes,
+        least,
+        collided="Look at how near something may come before the robot turns away, and "
+        "whether it turns to the side that is free: which sectors and which actions are on the left?",
+        late="Look at whether the robot turns to its target "
+        "again where the way there is free, and whether two turns undo each other.",
     )
 
 
@@ -515,7 +522,7 @@ def learned(answer, rng, side, slip, small, least):
     estimated model reached as much. Q-learning that begins with zeros and takes every second action at random passes
     each part mostly, and not always.
     """
-    discount, gained = 0.95, []
+    discount, gained = 0.95, []  # by world: what the robot gained, and what can be gained
     for _ in range(4):
         world = hidden_world(rng, side, slip, small, discount)
         transitions, gains, ends, start = world
@@ -542,9 +549,16 @@ def learned(answer, rng, side, slip, small, least):
         gained.append([returned(world, policy, discount) - anywhere, best - anywhere])
     own, most = np.sum(gained, axis=0)
     reached = int(100 * own / most)
+    shares = ", ".join(f"{100 * mine / best:.0f}" for mine, best in gained)
+    few = sum(mine < 0.1 * best for mine, best in gained)
     answer.check(
         reached >= least,
-        f"expected {least} % of what can be gained by learning, got {reached} %",
+        f"expected {least} % of what can be gained by learning, got {reached} %; in the four worlds {shares} %",
+        "In worlds with almost nothing gained the last policy is no better than random steps, or worse. Look at "
+        "whether the robot has found the goal there: it must also try what it has seldom done."
+        if few
+        else "Something is gained in each world. Look at whether all steps are used, and often enough, and whether "
+        "the policy of the last round still takes actions at random.",
     )
 
 

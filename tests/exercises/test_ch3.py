@@ -403,14 +403,22 @@ def test_imitate_the_expert(answer, rng):
     chosen = outputs(weights, wired(inputs[turns], order)).argmax(axis=1)
     side = np.array([0, 1, 1, -1, -1])
     agreed = int(100 * (side[chosen] == side[labels[turns]]).mean())
+    ahead = int(100 * (chosen == 0).mean())
     answer.check(
-        agreed >= 65, f"expected the same side in 65 of 100 turns, got {agreed}"
+        agreed >= 65,
+        f"expected the same side in 65 of 100 turns, got {agreed}; the robot goes ahead in {ahead} "
+        f"and turns to the other side in {100 - agreed - ahead}",
+        "The robot mostly goes ahead, as the expert does in most steps. Turns are rare: let them count for more."
+        if ahead > 100 - agreed - ahead
+        else "The robot mostly turns to the other side. Look at whether the labels and the rows of the last layer "
+        "are the same actions, and whether the weights have been trained long enough.",
     )
 
 
 @pytest.mark.part("3.8", points=6)
 def test_imitate_and_drive(answer, rng):
     """Arrives in four of five new worlds with ten obstacles; a robot that goes straight arrives in two of five."""
+    from robonav.grading.drives import require_arrivals
     from robonav.robot import Encoder, navigate, random_worlds
 
     order, encoder = rng.permutation(9), Encoder()
@@ -420,5 +428,12 @@ def test_imitate_and_drive(answer, rng):
     def policy(sensing, generator):
         return outputs(weights, wired(encoder(sensing), order)).argmax(axis=1)
 
-    arrived = int(navigate(policy, random_worlds(100, 10, seed=rng)).success.sum())
-    answer.check(arrived >= 80, f"expected 80 arrivals in 100 worlds, got {arrived}")
+    require_arrivals(
+        answer,
+        navigate(policy, random_worlds(100, 10, seed=rng)).outcome,
+        80,
+        collided="Look at whether the robot turns at all where something is near: "
+        "turns are rare in the demonstrations, so a network that goes ahead is right in most steps.",
+        late="Look at whether the robot turns where nothing "
+        "is near, or turns to and fro: a network with few errors on the steps it was trained on may have learnt them by heart.",
+    )

@@ -302,7 +302,7 @@ def rooms(rng, side=9, obstacles=4):
 
 
 def arrived(kinds, moves, table, discount=0.95):
-    """The share of cells from which a robot arrives that acts optimally for the table."""
+    """The shares of cells from which a robot that acts optimally for the table arrives, and collides."""
     going = kinds < WON
     rewards = np.where(going, table[np.minimum(kinds, DANGEROUS), kinds[moves]], 0.0)
     values = np.zeros(len(kinds))
@@ -312,7 +312,8 @@ def arrived(kinds, moves, table, discount=0.95):
     cells = np.arange(len(kinds))
     for _ in range(len(kinds)):
         cells = np.where(kinds[cells] < WON, moves[best[cells], cells], cells)
-    return (kinds[cells] == WON)[going].mean()
+    ends = kinds[cells][going]
+    return np.array([(ends == WON).mean(), (ends == FAILED).mean()])
 
 
 def healthy(rng):
@@ -324,7 +325,7 @@ def healthy(rng):
 
 
 def cured(answer, rng, raised):
-    """Yield arrivals with the original and with the cured table, and how many rewards the cure changed."""
+    """Require that the robot arrives with the cured table as with the original. Yield how many rewards it changed."""
     for _ in range(8):
         original = healthy(rng)
         table = original.copy()
@@ -339,37 +340,39 @@ def cured(answer, rng, raised):
             [arrived(*room, one) for one in (original, got.astype(float))]
             for room in [rooms(rng) for _ in range(3)]
         ]
-        right, own = (int(100 * share) for share in np.mean(shares, axis=0))
+        (right, _), (own, failed) = (100 * np.mean(shares, axis=0)).astype(int)
+        answer.check(
+            own >= right - 2,
+            f"expected {right} of 100 drives to arrive, got {own}; "
+            f"collisions: {failed}, for ever on the way: {100 - own - failed}",
+            "Some drives end in an obstacle: a reward on the way is now so low that failing costs less."
+            if failed > 100 - own - failed
+            else "Some drives never end: going to and fro, or staying, still pays. Add the rewards of a way that leads "
+            "back to where it began.",
+        )
         changed = int((~np.isclose(got, table)).sum())
         answer.check(changed <= 5, "expected at least 4 of 9 rewards unchanged")
-        yield right, own, changed
+        yield changed
 
 
 @pytest.mark.part("4.8", points=3)
 def test_cure_one_raised_reward(answer, rng):
     """The robot arrives where one reward had been raised."""
-    for right, own, _ in cured(answer, rng, 1):
-        answer.check(
-            own >= right - 2, f"expected {right} of 100 drives to arrive, got {own}"
-        )
+    for _ in cured(answer, rng, 1):
+        pass  # each table is checked where it is cured
 
 
 @pytest.mark.part("4.8", points=3)
 def test_cure_two_raised_rewards(answer, rng):
     """The robot arrives where two rewards had been raised."""
-    for right, own, _ in cured(answer, rng, 2):
-        answer.check(
-            own >= right - 2, f"expected {right} of 100 drives to arrive, got {own}"
-        )
+    for _ in cured(answer, rng, 2):
+        pass  # each table is checked where it is cured
 
 
 @pytest.mark.part("4.8", points=2)
 def test_cure_changes_little(answer, rng):
     """The robot arrives, and no more rewards change than had been raised."""
-    for right, own, changed in cured(answer, rng, 2):
-        answer.check(
-            own >= right - 2, f"expected {right} of 100 drives to arrive, got {own}"
-        )
+    for changed in cured(answer, rng, 2):
         answer.check(changed <= 2, f"expected at most 2 changed rewards, got {changed}")
 
 
@@ -429,7 +432,7 @@ class Learner:
 
 
 def learned(answer, rng, obstacles):
-    """Let a robot practise in five rounds, and count its arrivals in 100 new worlds."""
+    """Let a robot practise in five rounds, and see how its drives end in 100 new worlds."""
     from robonav.robot import navigate, random_worlds
 
     robot, steps = Learner(rng), None
@@ -450,11 +453,21 @@ def learned(answer, rng, obstacles):
         )
         robot.weights = [w.astype(float) for w in weights]
     worlds = random_worlds(100, obstacles, seed=rng)
-    return int(navigate(robot.drive, worlds, max_steps=150).success.sum())
+    return navigate(robot.drive, worlds, max_steps=150).outcome
 
 
 @pytest.mark.part("4.9", points=10)
 def test_practise_and_drive(answer, rng):
     """Arrives in two of three worlds with two robots that are wired otherwise; going straight, in two of five."""
-    arrived = learned(answer, rng, 10) + learned(answer, rng, 10)
-    answer.check(arrived >= 132, f"expected 132 arrivals in 200 worlds, got {arrived}")
+    from robonav.grading.drives import require_arrivals
+
+    require_arrivals(
+        answer,
+        np.concatenate([learned(answer, rng, 10), learned(answer, rng, 10)]),
+        132,
+        collided="Look at whether the end of an episode reaches the steps before it: "
+        "the target of a step that ends with -1 is this -1, and only of the other steps the next state's value. Then "
+        "at how long and how fast the network is trained.",
+        late="Perhaps they go in circles. Look at what a step costs: "
+        "if going on is worth as much as arriving, the robot goes on. And at whether values grow from round to round.",
+    )

@@ -353,8 +353,16 @@ def recovered(answer, rng, elsewhere, least):
         gains.append([worths[0] - worths[2], worths[1] - worths[2]])
     own, expert = np.sum(gains, axis=0)
     reached = int(100 * own / expert)
+    shares = ", ".join(f"{100 * mine / best:.0f}" for mine, best in gains)
+    harmful = sum(mine < 0 for mine, _ in gains)
     answer.check(
-        reached >= least, f"expected {least} % of the expert's gain, got {reached} %"
+        reached >= least,
+        f"expected {least} % of the expert's gain, got {reached} %; in the four grids {shares} %",
+        "In some grids the robot does worse than one that goes anywhere. Look at the sign of the weights: a kind of "
+        "cell that the expert visits more often than the robot needs a larger weight."
+        if harmful
+        else "No grid is worse than with a reward of 0. Look at how close the feature expectations of an optimal policy "
+        "come to the expert's, and let the search go on until they are close.",
     )
 
 

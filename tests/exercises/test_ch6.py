@@ -336,12 +336,18 @@ class Remembering:
 
 def escapes(answer, worlds, least):
     """Require that many of the robots arrive."""
+    from robonav.grading.drives import require_arrivals
     from robonav.robot import navigate
 
-    driven = navigate(Remembering(answer), worlds, max_steps=250, reflex=None)
-    arrived = int(driven.success.sum())
-    answer.check(
-        arrived >= least, f"expected {least} arrivals in 100 worlds, got {arrived}"
+    require_arrivals(
+        answer,
+        navigate(Remembering(answer), worlds, max_steps=250, reflex=None).outcome,
+        least,
+        collided="Look at how far the robot keeps from the wall that it follows: a step "
+        "is 2 m, no reflex helps, and a corner may lie between the middles of two sectors.",
+        late="Look at what the memory says when a robot begins "
+        "to follow a wall and when it leaves it: one that forgets too soon stays in the pocket, and one that never "
+        "leaves goes round and round.",
     )
 
 

@@ -1,4 +1,4 @@
-"""Known mistakes in 2.9. An open task has no hints: the check says what the robots did."""
+"""Known mistakes in 2.9. The hints of an open task say what the robots did."""
 
 import numpy as np
 

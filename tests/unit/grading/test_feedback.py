@@ -258,3 +258,21 @@ def test_the_chosen_bin_depends_on_the_cost(choice):
     result = feedback("6.2", direction)
     assert result["points"] < result["max_points"]
     assert result["feedback"].count("Hint: ") == result["feedback"].count("✗")
+
+
+@pytest.mark.parametrize(
+    ("turn", "end", "hint"),
+    [(0, "collisions: 100", "collide"), (2, "out of time: 100", "drive on")],
+    ids=["straight on", "round and round"],
+)
+def test_an_open_task_says_how_drives_ended_and_what_that_suggests(turn, end, hint):
+    def escape(ranges, bearing, distance, memory):
+        return np.full(len(ranges), turn), memory
+
+    result = feedback("6.6", escape)
+    in_pockets = result["feedback"].split("✗")[2]
+    assert f"Expected 75 arrivals in 100 worlds, got 0; {end}" in in_pockets.replace(
+        "collisions: 0, ", ""
+    )
+    assert f"Hint: Most robots that fail {hint}" in in_pockets
+    assert all(hint in part["hint"] for part in result["parts"][1:2])

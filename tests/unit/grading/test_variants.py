@@ -141,7 +141,9 @@ def test_known_mistakes_are_hinted_in_every_variant(exercise, made, passes):
             continue  # the book's are in test_exercises
         assert len(mistakes(course, exercise)) >= 3
         for name, function in mistakes(course, exercise).items():
-            if exercise.difficulty == "open task":  # which has no hints
+            if (
+                exercise.difficulty == "open task"
+            ):  # whose hints say what the robots did
                 assert not passes(course, known, exercise, function), (name, values)
                 continue
             with np.errstate(all="ignore"):
