@@ -1,8 +1,8 @@
 """``make slides``: a deck of slides for each lecture, from the built book. A lecture is a page of a chapter with marks.
 
 Usage: python make_slides.py [--parts] [PAGE ...], after a build. Without pages it makes all decks and ``index.html``,
-in ``_build/slides``. With ``--parts`` it prints the parts of the pages instead, by the names that a mark can show
-(:mod:`slides`).
+in ``_build/slides``, and says which other pages of these parts have no deck and why. With ``--parts`` it prints the
+parts of the pages instead, by the names that a mark can show (:mod:`slides`).
 
 Each deck is one HTML file. It works from disk, without a network. ``PAGE.html`` is the lecture of 45 minutes,
 ``PAGE.html?long`` that of 90, and ``?print-pdf`` (or ``?long&print-pdf``) lays out pages for printing. S opens the
@@ -64,24 +64,49 @@ COUNTED = re.compile(  # the book's own number of an algorithm, beside which the
 )
 STOP = re.compile(r"(?:\s|\\[,;:! ])*(?<!\\)[.,;]\s*((?:\\end\{\w+\}\s*)*\\\])")
 PARTS = ("Chapter", "Beyond the thesis", "The thesis again")  # with lectures
+WITHOUT_DECK = {  # pages of these parts that are no lectures, and why
+    "reproduction": "it compares tables and figures one by one, and is for looking up",
+    "leaderboard": "it is a table that a reader sorts, and a form for a policy of one's own",
+    "use-it-with": "it is a list of recipes for other libraries",
+    "cluster": "it is a manual for running experiments on many machines",
+    "benchmarks": "it lists times of this package, and is for looking up",
+}
 WIDE = (
     1.75  # a picture this much wider than high stands below its points, not beside them
 )
 
 
-def lectures() -> dict[str, list[str]]:
-    """Return the pages that are lectures, by the captions of their parts: those of the thesis's and later chapters."""
+def chapter_pages() -> dict[str, list[str]]:
+    """Return the pages of the thesis's and of later chapters, by the captions of their parts."""
     contents = yaml.safe_load((ROOT / "_toc.yml").read_text("utf-8"))
-    found = {
+    return {
         part["caption"]: [
-            name
-            for entry in part["chapters"]
-            if has_marks(name := entry["file"].removeprefix("book/"))
+            entry["file"].removeprefix("book/") for entry in part["chapters"]
         ]
         for part in contents["parts"]
         if part["caption"].startswith(PARTS)
     }
+
+
+def lectures() -> dict[str, list[str]]:
+    """Return the pages that are lectures, those with marks, by the captions of their parts."""
+    found = {
+        caption: [name for name in names if has_marks(name)]
+        for caption, names in chapter_pages().items()
+    }
     return {caption: names for caption, names in found.items() if names}
+
+
+def without_deck() -> dict[str, str]:
+    """Return why each of the pages without marks is no lecture; a page without a reason is an error."""
+    pages = [name for names in chapter_pages().values() for name in names]
+    missing = [name for name in pages if not has_marks(name)]
+    if forgotten := [name for name in missing if name not in WITHOUT_DECK]:
+        raise ValueError(
+            f"no slides are marked in {', '.join(forgotten)}: mark them, as book/instructors.md explains, "
+            "or say in WITHOUT_DECK why the page is no lecture"
+        )
+    return {name: WITHOUT_DECK[name] for name in missing}
 
 
 def has_marks(name: str) -> bool:
@@ -317,6 +342,11 @@ def index(made: dict[str, tuple[str, list[Slide]]]) -> str:
 def make(names: list[str]) -> int:
     """Make the decks of pages, and the list of decks if they are all of them. Return the exit code."""
     captions = {name: caption for caption, part in lectures().items() for name in part}
+    try:
+        reasons = without_deck() if set(names) == set(captions) else {}
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return 1
     made: dict[str, tuple[str, list[Slide]]] = {}
     decks: dict[str, str] = {}
     for name in names:
@@ -331,6 +361,8 @@ def make(names: list[str]) -> int:
     write_files(decks)
     if set(made) == set(captions):
         (TARGET / "index.html").write_text(index(made), "utf-8")
+    for name, reason in reasons.items():
+        print(f"no deck of {name}: {reason}")
     print(f"{len(made)} decks in {TARGET}")
     return 0
 
@@ -350,15 +382,15 @@ def main() -> int:
         return 2
     known = [name for part in lectures().values() for name in part]
     names = [name for name in sys.argv[1:] if name != "--parts"]
+    if "--parts" in sys.argv:
+        print_parts(names or known)
+        return 0
     if unknown := [name for name in names if name not in known]:
         print(
             f"no page with slides is named {', '.join(unknown)}; there are {', '.join(known)}",
             file=sys.stderr,
         )
         return 2
-    if "--parts" in sys.argv:
-        print_parts(names or known)
-        return 0
     return make(names or known)
 
 

@@ -114,6 +114,38 @@ class Plan:
         return self.session_minutes * len(self.sessions)
 
 
+@dataclass(frozen=True)
+class Further:
+    """A page with a deck that no session of the courses holds: after which page it can be taught, and what for."""
+
+    page: str
+    after: str
+    purpose: str
+
+
+def further() -> list[Further]:
+    """Return the pages of ``syllabus.toml`` for more lectures, in its order."""
+    tables = tomllib.loads(COURSES.read_text("utf-8"))
+    return [Further(**table) for table in tables["further"]]
+
+
+def further_text(course_plan: Plan) -> str:
+    """Return the list of more lectures in MyST Markdown."""
+    unit = course_plan.unit.lower()
+    lines = [
+        "## More lectures",
+        "",
+        f"These pages of chapter 6 have decks and drills, too. Take one in place of another lecture, or add a {unit}.",
+        "",
+        *(
+            f"- {{doc}}`/book/{one.page}`, `{one.page}.html` ({SHORT} min), after {{doc}}`/book/{one.after}`. "
+            f"{one.purpose}"
+            for one in further()
+        ),
+    ]
+    return "\n".join(lines) + "\n"
+
+
 def plan(name: str) -> Plan:
     """Return a course of ``syllabus.toml``: "weeks" or "days"."""
     tables = tomllib.loads(COURSES.read_text("utf-8"))
@@ -212,6 +244,7 @@ class Syllabus(SphinxDirective):
             session_text(k, session, course_plan, course)
             for k, session in enumerate(course_plan.sessions, 1)
         )
+        text += "\n" + further_text(course_plan)
         # by itself: MyST drops what stands before the first heading of a parsed text
         first = self.parse_text_to_nodes(headline(course_plan, course))
         return first + self.parse_text_to_nodes(text, allow_section_headings=True)

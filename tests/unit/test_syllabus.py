@@ -69,16 +69,46 @@ def test_no_goal_names_anything_twice() -> None:
             assert len(names) == len(set(names)), goal.id
 
 
+def test_each_chapter_page_has_a_deck() -> None:
+    """A page of chapter 6 may say instead why it is no lecture."""
+    lectures = {page for part in make_slides.lectures().values() for page in part}
+    reasons = make_slides.without_deck()
+    assert set(chapter_pages()) <= lectures
+    assert set(later_pages()) <= lectures | set(reasons)
+    assert lectures.isdisjoint(reasons)
+    assert set(reasons) == set(make_slides.WITHOUT_DECK)
+
+
+def test_a_page_without_a_deck_and_without_a_reason_stops_the_slides(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    marked = make_slides.has_marks
+    monkeypatch.setattr(make_slides, "has_marks", lambda name: marked(name) and name != "memory")  # fmt: skip
+    every = [page for part in make_slides.lectures().values() for page in part]
+    assert make_slides.make(every) == 1
+    assert "no slides are marked in memory: mark them" in capsys.readouterr().err
+
+
+def test_further_lectures_follow_a_page_of_a_session() -> None:
+    lectures = {page for part in make_slides.lectures().values() for page in part}
+    pages = [page for session in PLANS["weeks"].sessions for page in session.pages]
+    for one in syllabus.further():
+        assert one.page in lectures
+        assert one.page not in pages
+        assert one.after in pages
+        assert f"`{one.page}.html` (45 min)" in syllabus.further_text(PLANS["weeks"])
+
+
 @both_plans
 def test_each_chapter_page_and_each_deck_occurs(name: str) -> None:
     sessions = PLANS[name].sessions
     pages = [page for session in sessions for page in session.pages]
     lectures = {page for part in make_slides.lectures().values() for page in part}
-    later = {"planners", "deep-reinforcement-learning", "conclusions"}
-    assert {*chapter_pages(), *later} <= lectures <= set(pages)
+    further = {one.page for one in syllabus.further()}
+    assert lectures <= set(pages) | further
     assert len(pages) == len(set(pages))
     decks = [d for session in sessions for d in session.lecture + session.long_lecture]
-    assert sorted(decks) == sorted(lectures - {"playground"})
+    assert sorted(decks) == sorted(lectures - further - {"playground"})
     for session in sessions:
         assert set(session.lecture + session.long_lecture) <= set(session.pages)
 

@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+import torch
 from numbers_in_texts import drawn, numbers
 
 
@@ -218,3 +219,106 @@ def test_gain_of_learning_together_by_a_hundred_robots() -> None:
         saved = [robot for robot in range(100) if alone <= robot < together]
         failed = [robot for robot in range(100) if robot >= alone]
         assert question.asked.answer == pytest.approx(100 * len(saved) / len(failed))
+
+
+def cells_of(picture: str) -> dict[tuple[int, int], tuple[str, tuple[int, int]]]:
+    """The name and the arrow of each cell with an arrow, by row and column."""
+    cells = {}
+    for name, group in re.findall(r'data-place="(\w)">(.*?)</g>', picture):
+        left, top = map(float, re.search(r'x="(\d+)" y="(\d+)"', group).groups())
+        x0, y0, x1, y1 = map(
+            float, re.search(r"M(\S+) (\S+)L(\S+) ([\d.]+)", group).groups()
+        )
+        turn = (int(np.sign(y1 - y0)), int(np.sign(x1 - x0)))
+        cells[int(top) // 64, int(left) // 64] = (name, turn)
+    return cells
+
+
+def test_where_a_policy_must_err_by_walking_through_the_picture() -> None:
+    """Shortest ways are found cell by cell from the goal; no package function of models takes part."""
+    sides = [(-1, 0), (0, 1), (1, 0), (0, -1)]
+    for question in drawn("where-a-policy-must-err"):
+        cells = cells_of(question.picture)
+        grey = {
+            (int(float(y)) // 64, int(float(x)) // 64)
+            for x, y in re.findall(r'<rect x="(\S+)" y="(\S+)"[^>]*fill="#888"', question.picture)
+        }  # fmt: skip
+        (goal,) = {(i, j) for i in range(3) for j in range(4)} - grey - set(cells)
+        far, ring = {goal: 0}, [goal]
+        while ring:
+            ring = [
+                (i + a, j + b) for i, j in ring for a, b in sides
+                if (i + a, j + b) in cells and (i + a, j + b) not in far
+            ]  # fmt: skip
+            far |= dict.fromkeys(ring, max(far.values()) + 1)
+        nearer = {
+            cell: {(a, b) for a, b in sides if far.get((cell[0] + a, cell[1] + b), 99) < far[cell]}
+            for cell in cells
+        }  # fmt: skip
+        senses = {(i, j): [(i + a, j + b) in far for a, b in sides] for i, j in cells}
+        right = set()
+        for cell, (name, arrow) in cells.items():
+            assert arrow in nearer[cell]
+            same = [nearer[c] for c in cells if senses[c] == senses[cell]]
+            if not set.intersection(*same):
+                right.add(name)
+        assert set(question.asked.right) == right
+
+
+def test_right_without_a_memory_by_counting_worlds() -> None:
+    for question in drawn("right-without-a-memory"):
+        left, worlds, turns = numbers(question.text)
+        sides = [1] * int(left) + [0] * int(worlds - left)
+        mean = sum(turns if side else 1 - turns for side in sides) / worlds
+        best = max(sides.count(0), sides.count(1)) / worlds
+        assert question.asked.answer[0] == pytest.approx([mean, best])
+
+
+def test_window_that_reaches_back_by_a_list_of_states() -> None:
+    for question in drawn("window-that-reaches-back"):
+        distance, speed = numbers(question.text.replace("$", " "))
+        passed = ["sign"]
+        while (len(passed) - 1) * speed < distance:
+            passed.append("corridor")
+        lengths = [k for k in range(1, 50) if "sign" in passed[-k:]]
+        assert question.asked.answer == min(lengths)
+
+
+def test_numbers_in_a_window_one_after_the_other() -> None:
+    for question in drawn("numbers-in-a-window"):
+        k, encoded, *_ = map(int, numbers(question.text))
+        parts = [encoded]
+        for _ in range(k - 1):
+            parts += [5, encoded]
+        assert question.asked.answer == sum(parts)
+
+
+def test_one_step_of_a_unit_by_torch_s_own() -> None:
+    """In torch's unit the gates stand in the order r, z, n; its z is that of the page."""
+    for question in drawn("one-step-of-a-unit"):
+        h, x, wz, uz, w, u = numbers(re.sub(r"_z", "", question.text.replace("$", " ")))[:6]  # fmt: skip
+        cell = torch.nn.GRUCell(1, 1, dtype=torch.float64)
+        with torch.no_grad():
+            cell.weight_ih[:] = torch.tensor([[0.0], [wz], [w]])
+            cell.weight_hh[:] = torch.tensor([[0.0], [uz], [u]])
+            cell.bias_ih.zero_()
+            cell.bias_hh.zero_()
+            cell.bias_ih[0] = 50.0  # the reset gate is 1
+            after = cell(torch.tensor([[x]]).double(), torch.tensor([[h]]).double())
+        assert question.asked.answer == pytest.approx(after.item())
+
+
+def test_left_in_a_unit_by_logarithms() -> None:
+    for question in drawn("left-in-a-unit"):
+        stored, steps, z = numbers(question.text.replace("$", " "))[:3]
+        share = math.exp(steps * math.log(z))
+        assert question.asked.answer == pytest.approx(stored * share)
+
+
+def test_stored_or_used_by_the_quadratic_equation() -> None:
+    for question in drawn("stored-or-used"):
+        worlds, read, taken = numbers(question.text)
+        stored, used = (wilson(n, worlds)[0] > 0.5 for n in (read, taken))
+        expected = ("does not hold", "does not use", "and the policy uses")
+        assert expected[int(stored) + int(stored and used)] in question.asked.right
+        assert stored or not used
