@@ -55,7 +55,8 @@ def one_step(rng: Rng) -> Question:
     wrong = {hint: table for hint, table in wrong.items() if not _alike(table, after)}
     return Question(
         f"The robot stands at $({x:g}, {y:g})$ with the heading ${heading}°$ and goes at ${speed:g}$ m/s in an empty "
-        f"map. Where is it after one step of action {NAMES[action]}?",
+        f"map. Where is it after one step of action {NAMES[action]}? L and R turn left and right before the step, and "
+        "B steps backwards.",
         Table(["position"], ["x", "y"], [after.tolist()], wrong=wrong),
         f"The new heading is ${end}°$. "
         + ("It goes backwards: " if NAMES[action] == "B" else "")
@@ -120,7 +121,7 @@ def sector_of_point(rng: Rng) -> Question:
     return Question(
         f"The robot's heading is ${heading}°$. The target lies in the direction "
         f"${(heading + bearing) % 360}°$ of the "
-        "map. Which sector holds it?",
+        "map. Which of the robot's nine sectors holds it? Sector 1 lies ahead, the others follow counter-clockwise.",
         Choice(str(sector), wrong),
         f"Seen from the robot the target lies at ${(heading + bearing) % 360}° - {heading}°$, that is "
         f"at ${bearing}°$. "
@@ -168,7 +169,8 @@ def what_the_reflex_does(rng: Rng) -> Question:
         -1: f"Something is in range, and a sector ahead reads at least ${speed:g} + 1 = {limit:g}$ m.",
     }
     return Question(
-        f"At ${speed:g}$ m/s sensors 1 to 9 read ${', '.join(f'{r:g}' for r in ranges)}$ m. Who acts?",
+        f"At ${speed:g}$ m/s sensors 1 to 9 read ${', '.join(f'{r:g}' for r in ranges)}$ m. They reach 10 m. A sector "
+        "is blocked if it reads less than one step plus 1 m. Who acts?",
         Choice(answers[robot.Action(command) if command >= 0 else -1], wrong),
         why[command],
     )

@@ -21,9 +21,14 @@ def degrees_of_danger(rng: Rng) -> Question:
     ranges = np.round(rng.uniform(0.6, 10.0, size=4), 1)
     degrees = robot.degree_of_danger(ranges)
     reversed_degrees = (7 - degrees).tolist()
+    borders = (
+        f"{7 - k} below {border:.3g} m"
+        for k, border in enumerate(robot.encoding.DANGER_BORDERS)
+    )
     return Question(
-        f"Four sensors read ${', '.join(f'{r:g}' for r in ranges)}$ m. Which degrees of danger, 0 to 7, does "
-        "Table 3.1 give them?",
+        f"Four sensors read ${', '.join(f'{r:g}' for r in ranges)}$ m. By Table 3.1, for sensors that reach 10 m, the "
+        f"degree of danger is {', '.join(borders)}, and 0 otherwise; the first that fits counts. Which degrees do "
+        "the readings have?",
         Table(
             ["degree"],
             [f"{r:g} m" for r in ranges],
@@ -31,7 +36,7 @@ def degrees_of_danger(rng: Rng) -> Question:
             tolerance=0.1,
             wrong={"A large degree means a near obstacle.": [reversed_degrees]},
         ),
-        "The degree falls from 7, a collision, by one with each interval of Table 3.1: "
+        "The degree falls from 7, a collision, by one with each border that the reading reaches: "
         + ", ".join(f"{r:g} m gives {d}" for r, d in zip(ranges, degrees, strict=True))
         + ".",
     )
@@ -115,7 +120,8 @@ def cautious_step(rng: Rng) -> Question:
     answer = length * (1 + caution * near**2)
     return Question(
         f"A step of ${length:g}$ m ends ${distance:g}$ m from the nearest obstacle. What does it cost an expert with "
-        f"caution ${caution:g}$?",
+        f"caution ${caution:g}$? A step of $l$ metres that ends $d$ metres from it costs "
+        "$l \\, (1 + c \\, (1 - d / 10)^2)$ with caution $c$.",
         Number(
             answer,
             wrong={

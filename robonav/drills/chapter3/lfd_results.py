@@ -141,7 +141,8 @@ def labelled_state(rng: Rng) -> Question:
     right = f"the state, with {expert}" if asked else "nothing"
     wrong = {option: hint for option, hint in options.items() if option != right}
     return Question(
-        f"In a round of DAgger with $\\beta = 0$ the least of the robot's nine ranges is ${ranges.min():g}$ m. The "
+        f"In a round of DAgger with $\\beta = 0$ the least of the robot's nine ranges is ${ranges.min():g}$ m; its "
+        f"sensors reach ${FREE:g}$ m. The "
         f"learner's network prefers {learner} in this state, and the expert {expert}. What does the step add to the "
         "training examples?",
         Choice(right, wrong),
@@ -168,7 +169,8 @@ def mixture_of_rounds(rng: Rng) -> Question:
 
     who = "expert" if of_expert else "learner"
     return Question(
-        f"DAgger is called with `beta_decay={decay:g}`. With which probability does the *{who}* choose a step's "
+        f"DAgger begins with the expert alone, and `beta_decay={decay:g}` multiplies the expert's share from round to "
+        f"round. With which probability does the *{who}* choose a step's "
         "action in rounds 0 to 3? Give three decimals.",
         Table(
             [who],

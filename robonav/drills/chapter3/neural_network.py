@@ -61,7 +61,8 @@ def output_errors(rng: Rng) -> Question:
     )
     return Question(
         f"A sigmoid output unit has the activation ${output:g}$, and its label is ${label}$. "
-        "What is its error $\\delta$ under each cost? Give three decimals.",
+        "What is its error $\\delta$ under each cost, the squared error $(a - y)^2 / 2$ and the cross-entropy? "
+        "Give three decimals.",
         Table(
             ["squared error", "cross-entropy"],
             ["$\\delta$"],

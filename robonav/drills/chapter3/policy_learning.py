@@ -215,8 +215,9 @@ def rate_in_interval(rng: Rng) -> Question | None:
     if abs(gap - Z * error) < 0.003:
         return None  # too near to decide by three decimals
     return Question(
-        f"A policy arrives in ${k}$ of ${n}$ maps. Does Wilson's 95 % interval contain $p = {p:g}$? Give both sides of "
-        "its condition with three decimals, and then 1 for yes or 0 for no.",
+        f"A policy arrives in ${k}$ of ${n}$ maps. Does Wilson's 95 % interval contain $p = {p:g}$? Its condition is "
+        "$|k/n - p| \\leq 1.96 \\sqrt{p \\, (1 - p) / n}$. Give both sides with three decimals, and then 1 for yes or "
+        "0 for no.",
         Table(
             ["$|k/n - p|$", "right side", "1 or 0"],
             ["number"],
@@ -266,8 +267,8 @@ def perfect_test(rng: Rng) -> Question:
         hint = "The square of 1.96 is added to the denominator, not subtracted from the numerator."
         wrong[hint] = only_below
     return Question(
-        f"A policy arrives in all of ${n}$ new maps. Where does Wilson's 95 % interval of its success rate begin? Give "
-        "a fraction with three decimals.",
+        f"A policy arrives in all of ${n}$ new maps. Where does Wilson's 95 % interval of its success rate begin? It "
+        "holds all $p$ with $|k/n - p| \\leq 1.96 \\sqrt{p \\, (1 - p) / n}$. Give a fraction with three decimals.",
         Number(
             low,
             tolerance=0.0011,
@@ -335,14 +336,20 @@ def stacked_shapes(rng: Rng) -> Question:
     encoders = robot.Encoder(), robot.Encoder(target="number")
     rows, size, learned = _shapes(steps, safe, back, encoders[thesis])
     other = encoders[not thesis].size
-    whose = "the thesis's encoding" if thesis else "this book's default encoding"
+    target = (
+        "the number of the target's sector"
+        if thesis
+        else "the sine and the cosine of the direction of the target's sector"
+    )
     shown = "; ".join(
         f"${n}$ steps: ${s}$ safe, ${b}$ back"
         for n, s, b in zip(steps, safe, back, strict=True)
     )
     return Question(
         f"Three demonstrations were recorded. {shown}. *Safe* are steps in safe states, *back* those in which the "
-        f"robot stepped back. With {whose}, how many rows and columns do $S$ and $A$ of Eq. (3.29) have?",
+        "robot stepped back. A state is encoded by the degrees of danger of nine sensors, "
+        f"{target}, and whether the target is seen. The expert chooses among F, L30, L60, R30 and R60. How many rows "
+        "and columns have the training matrices, $S$ of the states and $A$ of the actions?",
         Table(
             ["$S$", "$A$"],
             ["rows", "columns"],
@@ -361,7 +368,7 @@ def stacked_shapes(rng: Rng) -> Question:
                     [rows, size],
                     [rows, 1],
                 ],
-                "The thesis has 11 components, and this book's encoder 12: sine and cosine in place of one number.": [
+                "A sector's number is one component, and sine and cosine are two.": [
                     [rows, other],
                     [rows, learned],
                 ],
@@ -385,8 +392,9 @@ def penalty(rng: Rng) -> Question:
     )
     term = with_it - without
     return Question(
-        f"A network was trained on ${pairs}$ effective pairs. The squares of its weights add up to ${squares:g}$. With "
-        f"$\\lambda = {decay:g}$, how much does the penalty add to the cost? Give three decimals.",
+        f"A network was trained on ${pairs}$ effective pairs. The squares of its weights add up to ${squares:g}$. How "
+        "much does the penalty $\\lambda / (2 m)$ times this sum, for $m$ pairs, add to the cost with "
+        f"$\\lambda = {decay:g}$? Give three decimals.",
         Number(
             term,
             tolerance=0.0011,

@@ -234,7 +234,8 @@ def lead_after_rescaling(rng: Rng) -> Question:
     }
     return Question(
         f"After an update the values of a state's four actions are ${', '.join(f'{v:g}' for v in q)}$. By how much "
-        "is the best action ahead of the second after clipping, and after shifting? Give three decimals.",
+        "is the best action ahead of the second after clipping to the range from 0 to 1, and after shifting, which "
+        "here divides all values by the largest? Give three decimals.",
         Table(
             ["clip", "shift"],
             ["lead"],

@@ -36,7 +36,8 @@ def one_target(rng: Rng) -> Question:
     return Question(
         f"In $s$ the network gives ${shown}$ for the actions F, L30 and L60, and in $s'$ "
         f"${following}$. The robot took "
-        f"{ACTIONS[taken]} and got the reward ${reward:g}$. Which value does Eq. (4.9) give this action, with "
+        f"{ACTIONS[taken]} and got the reward ${reward:g}$. Which value does the update of Q-learning, Eq. (4.9), give "
+        f"this action, with "
         f"$\\alpha = {rate:g}$ and $\\gamma = {discount:g}$?",
         Number(
             new,
@@ -62,7 +63,8 @@ def rescaled(rng: Rng) -> Question:
     shown = ", ".join(f"{value:g}" for value in q)
     return Question(
         f"After an update the Q-values of a state are ${shown}$. The network's outputs lie between 0 and 1. "
-        "Rescale the values in both ways.",
+        "Rescale the values in both ways. Clipping sets a value outside to the nearer end. Shifting maps the range "
+        "from the smaller of 0 and the least value to the larger of 1 and the greatest onto the range from 0 to 1.",
         Table(
             ["clip", "shift"],
             ["F", "L30", "L60"],
@@ -125,7 +127,8 @@ def cost_of_outputs(rng: Rng) -> Question:
     half = float(-(targets * np.log(outputs)).sum())
     return Question(
         f"The targets of two actions are ${targets[0]:g}$ and ${targets[1]:g}$, and the outputs ${outputs[0]:g}$ and "
-        f"${outputs[1]:g}$. What is the cost $J$ of Eq. (4.11), with natural logarithms?",
+        f"${outputs[1]:g}$. What is the cost $J$ of Eq. (4.11), the sum of their cross-entropies, with natural "
+        "logarithms?",
         Number(
             cost,
             wrong={

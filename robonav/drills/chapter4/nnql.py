@@ -57,8 +57,9 @@ def last_step(rng: Rng) -> Question:
     kept = f" {sign(future)}" if future else ""
     return Question(
         f"The robot takes an action with the value ${q:g}$ and {end}. The reward is ${reward:g}$, and for the state "
-        f"reached the network's largest value is ${following:g}$. Which value does line 13 of Algorithm 8 give the "
-        f"action, with $\\alpha = {rate:g}$ and $\\gamma = {discount:g}$, before it is brought into $[0, 1]$?",
+        f"reached the network's largest value is ${following:g}$. Which value does the update of NNQL, line 13 "
+        f"of Algorithm 8, give the action, with $\\alpha = {rate:g}$ and $\\gamma = {discount:g}$, before it is "
+        "brought into $[0, 1]$?",
         Number(new, wrong=wrong),
         ("Nothing follows: " if terminal else "The future value counts: ")
         + f"${q:g} + {rate:g} \\, ({reward:g}{kept} {sign(-q)}) = {new:.4g}$.",
@@ -129,8 +130,9 @@ def pairs_so_far(rng: Rng) -> Question | None:
         cell += label(x + CELL / 2, 36, f"{metres:g} m", size=13)
         parts.append(place(str(k), cell))
     return Question(
-        "The picture shows the distance of the nearest thing before each step of an episode, at most 10 m. After which "
-        f"step does NNQL train on ${count}$ pairs for the first time?",
+        "The picture shows the distance of the nearest thing before each step of an episode. Sensors reach 10 m, and "
+        f"where nothing is in range the reflex acts. After which step does NNQL train on ${count}$ pairs for the "
+        "first time?",
         Place([str(k) for k in range(1, 8)], [str(step)], wrong),
         "Steps in which something is in range give a pair: "
         + ", ".join(str(k + 1) for k in np.flatnonzero(learns))
@@ -173,8 +175,9 @@ def errors_of_outputs(rng: Rng) -> Question:
     value = new[taken]
     return Question(
         f"In $s$ the outputs are ${_list(q)}$ for F, L30 and L60. The robot takes {NAMES[taken]}, and the TD target "
-        f"$r + \\gamma \\max Q(s', a)$ is ${target:g}$. With $\\alpha = {rate:g}$, and shifting where it is needed, "
-        "what is the error $\\delta$ of each output? Give three decimals.",
+        f"$r + \\gamma \\max Q(s', a)$ is ${target:g}$. With $\\alpha = {rate:g}$, what is the error $\\delta$ of each "
+        "output? Shift the new values first: map the range from the smaller of 0 and the least to the larger of 1 and "
+        "the greatest onto the range from 0 to 1. Give three decimals.",
         Table(
             ["error"],
             list(NAMES),
@@ -209,7 +212,8 @@ def output_weights(rng: Rng) -> Question:
     return Question(
         f"For the action taken the output is ${q:g}$ and the rescaled target ${target:g}$. The two hidden units have "
         f"the activations ${hidden[0]:g}$ and ${hidden[1]:g}$. How much do the two weights and the bias of this "
-        f"output change in a step with $\\sigma = {step:g}$? Give three decimals.",
+        f"output change in a step of gradient descent on the cross-entropy with the size $\\sigma = {step:g}$? Give "
+        "three decimals.",
         Table(
             ["change"],
             ["weight 1", "weight 2", "bias"],

@@ -111,7 +111,7 @@ def property_of_state(rng: Rng) -> Question:
     shown = ", ".join(f"{reading:g}" for reading in ranges)
     return Question(
         f"The robot {outcomes[outcome]}. Its nine sensors read ${shown}$ m. Which property does its state "
-        "have by Eq. (4.6)?",
+        f"have by Eq. (4.6)? Sensors reach 10 m, and what is nearer than {nnql.COZY_DISTANCE:g} m is near.",
         Choice(name, wrong),
         f"The robot {outcomes[outcome]}, so the state is {name}, whatever its sensors read."
         if outcome

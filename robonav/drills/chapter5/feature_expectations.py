@@ -123,7 +123,8 @@ def refined(rng: Rng) -> Question:
         f"other states it went "
         f"left {left_there} times and right {right_there} times. Which action does s keep: 0 (left) "
         f"or 1 (right)? Answer "
-        "for Eq. (5.12), and for Eq. (5.12) with a uniform prior $P(a)$.",
+        "for Eq. (5.12), which makes $P(s | a) P(a)$ as large as possible with counted shares, and for a uniform prior "
+        "$P(a)$.",
         Table(
             ["Eq. (5.12)", "uniform prior"],
             ["action"],

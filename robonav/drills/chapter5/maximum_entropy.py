@@ -123,8 +123,9 @@ def gradient_of_the_dual(rng: Rng) -> Question:
     shown = f"{'' if rising else '-'}\\ln {base}"
     return Question(
         f"The expert has the feature $\\mu_E = {expert:g}$. Two trajectories, sampled with the baseline policy, have "
-        f"${features[0]:g}$ and ${features[1]:g}$. The slack is ${slack:g}$. What is the gradient "
-        f"$\\nabla g(\\theta)$ at $\\theta = {shown}$?",
+        f"${features[0]:g}$ and ${features[1]:g}$. The slack is ${slack:g}$. The dual is "
+        "$g(\\theta) = \\theta \\mu_E - \\ln \\sum_j e^{\\theta f_j} - \\epsilon |\\theta|$ with the samples' features "
+        f"$f_j$ and the slack $\\epsilon$. What is its gradient at $\\theta = {shown}$?",
         Number(
             answer,
             wrong={

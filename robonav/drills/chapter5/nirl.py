@@ -23,14 +23,14 @@ def boltzmann(rng: Rng) -> Question:
     hot = nirl.boltzmann_policy(q, 1 / eta)
     exponent = -eta * (q[0] - q[1])
     return Question(
-        f"$Q(s, a) = {q[0]:g}$ and $Q(s, b) = {q[1]:g}$. Which probabilities does Eq. (5.10) give "
-        f"with $\\eta = {eta:g}$?",
+        f"$Q(s, a) = {q[0]:g}$ and $Q(s, b) = {q[1]:g}$. Which probabilities does the Boltzmann "
+        f"policy of Eq. (5.10) have at the inverse temperature $\\eta = {eta:g}$?",
         Table(
             ["probability"],
             ["a", "b"],
             [p.tolist()],
             wrong={
-                "Here $\\eta$ is an inverse temperature: it multiplies the values.": [
+                "An inverse temperature multiplies the values. A temperature would divide them.": [
                     hot.tolist()
                 ],
                 "This is in proportion to the values, not to their exponentials.": [
@@ -60,7 +60,8 @@ def sarsa_target(rng: Rng) -> Question:
     return Question(
         f"$Q(s_t, a_t) = {q:g}$, the learned reward of the step is ${reward:g}$, and $Q(s_{{t+1}}, "
         f"a_{{t+1}}) = {next_q:g}$. "
-        f"What is the target by Eq. (5.16), with $\\alpha = {alpha:g}$ and $\\gamma = {gamma:g}$?",
+        "Which value does the update of SARSA, Eq. (5.16), give $Q(s_t, a_t)$ as the network's target, with "
+        f"$\\alpha = {alpha:g}$ and $\\gamma = {gamma:g}$?",
         Number(
             answer,
             wrong={

@@ -41,7 +41,7 @@ def large_margin_step(rng: Rng) -> Question:
         f"SCIRL gives the actions of a state the scores "
         f"{', '.join(f'{n}: ${s:g}$' for n, s in zip(names, scores, strict=True))}. The expert takes "
         f"{names[own]}. What does this step cost, with weight 1 and without "
-        "regularisation?",
+        "regularisation? It is free if the expert's action leads by at least 1, and costs what is missing otherwise.",
         Number(cost, wrong=wrong),
         f"The strongest rival has ${rival:g} + 1 = {rival + 1:.4g}$. "
         + (
@@ -83,6 +83,7 @@ def one_step_of_lstd(rng: Rng) -> Question:
         else f"and the step after it has $\\psi = {after[1]:g}$"
     )
     return Question(
+        "LSTD-μ estimates discounted sums of the feature $f$ as $\\omega \\psi$. "
         f"Two steps of the expert have $\\psi = {psi[0]:g}$ and $\\psi = {psi[1]:g}$, {end}. Their features are "
         f"$f = {feature[0]:g}$ and $f = {feature[1]:g}$. With $\\gamma = {discount:g}$, what is $\\omega$?",
         Number(

@@ -224,7 +224,8 @@ def rare_and_frequent(rng: Rng) -> Question:
     return Question(
         f"In the state s forward was demonstrated {here[0]} times and left {here[1]} times. In all other states "
         f"forward was demonstrated {there[0]} times and left {there[1]} times. Compute the likelihoods "
-        "$P(s \\mid a)$. How many of the decisions in s does Eq. (5.12) change if the prior $P(a)$ is uniform?",
+        "$P(s \\mid a)$. Eq. (5.12) keeps the action with the largest $P(s \\mid a) P(a)$. How many decisions in s "
+        "does it change if the prior $P(a)$ is uniform?",
         Table(
             [
                 "$P(s \\mid \\text{forward})$",
@@ -303,7 +304,7 @@ def linear_reward(rng: Rng) -> Question:
         f"A state has the features ${danger:g}$ and ${turned:g}$. They stand in the block of the action that is taken, "
         f"and the other block is 0. The weights of the block F are ${f}$, those of the block L30 "
         f"${left}$. What are the "
-        "rewards by Eq. (5.2)?",
+        "rewards of the two actions, which are linear in the features?",
         Table(
             ["reward"],
             ["F", "L30"],

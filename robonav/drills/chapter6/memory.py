@@ -6,6 +6,7 @@ from collections import defaultdict
 
 import numpy as np
 import torch
+from scipy.sparse.csgraph import shortest_path
 
 from robonav import mdp
 from robonav.benchmark import success_interval
@@ -27,12 +28,16 @@ LETTERS = "ABCDEFHIJKLM"  # G is the goal
 
 def _best_actions(grid: mdp.GridWorld) -> list[set[int]] | None:
     """The best actions of each cell but the goal, or None if no way leads from some cell to the goal."""
-    model = grid.mdp(discount=0.9)
-    q = model.action_values(mdp.value_iteration(model).values)[~grid.terminal]
-    best = q.max(axis=1, keepdims=True)
-    if best.min() < 1e-3:
+    links = np.zeros((grid.n_states, grid.n_states))
+    links[grid.moves, np.arange(grid.n_states)[:, None]] = (
+        1  # from the cell reached to the cell
+    )
+    (goal,) = np.flatnonzero(grid.terminal)
+    far = shortest_path(links, indices=goal, unweighted=True)
+    if not np.isfinite(far).all():
         return None
-    return [set(np.flatnonzero(row > top - 1e-3)) for row, top in zip(q, best, strict=True)]  # fmt: skip
+    nearer = far[grid.moves] < far[:, None]
+    return [set(np.flatnonzero(row)) for row in nearer[~grid.terminal]]
 
 
 def _groups(keys: list[tuple[bool, ...]]) -> list[list[int]]:

@@ -46,8 +46,9 @@ def sum_of_forces(rng: Rng) -> Question:
     difference = 1 / rho - 1 / influence
     return Question(
         f"The target lies straight ahead and attracts the robot with a force of 1. Sensor 1, which looks ahead, reads "
-        f"${rho:g}$ m, and all others read 10 m. What is the sum of the forces ahead, with $\\eta = {eta:g}$ and "
-        f"$\\rho_0 = {influence:g}$ m?",
+        f"${rho:g}$ m, and all others read 10 m. An obstacle at the distance $\\rho$ has the potential "
+        "$\\frac{\\eta}{2} (1 / \\rho - 1 / \\rho_0)^2$. What is the sum of the forces ahead, with "
+        f"$\\eta = {eta:g}$ and $\\rho_0 = {influence:g}$ m?",
         Number(
             answer,
             wrong={
@@ -208,7 +209,8 @@ def leave_or_follow(rng: Rng) -> Question:
     return Question(
         "A bug follows an obstacle on its left. Since it met it, it has never been nearer to the target than "
         f"{least:g} m. Now the target is {distance:g} m away, straight ahead, and the way to it is free for "
-        f"{ahead:g} m. A step is 2 m long. What does the bug do?",
+        f"{ahead:g} m. A step is 2 m long. The bug leaves if the farthest free point on this way is more than a "
+        "step nearer to the target than the bug has been. What does it do?",
         Choice(
             right, {STAYS if right == LEAVES else LEAVES: why}, order=(STAYS, LEAVES)
         ),

@@ -86,8 +86,9 @@ def test_schedule_multiplies_by_one_factor() -> None:
 
 def test_property_of_state() -> None:
     for question in drawn("property-of-state"):
-        nearest = min(numbers(question.text.replace("Eq. (4.6)", "")))
-        name = "safe" if nearest >= 10 else "dangerous" if nearest < 5 else "cozy"
+        readings, told = question.text.split("Which property")
+        nearest, (reach, near) = min(numbers(readings)), numbers(told)
+        name = "safe" if nearest >= reach else "dangerous" if nearest < near else "cozy"
         if "has arrived" in question.text:
             name = "winning"
         if "has collided" in question.text:
@@ -137,7 +138,7 @@ def test_pairs_so_far() -> None:
 
 def test_errors_of_outputs() -> None:
     for question in drawn("errors-of-outputs"):
-        *q, target, alpha = numbers(question.text.replace("[0, 1]", ""))
+        *q, target, alpha = numbers(question.text.partition("what is the error")[0])
         taken = ["F", "L30", "L60"].index(re.search(r"takes (\w+)", question.text)[1])
         new = list(q)
         new[taken] = (1 - alpha) * q[taken] + alpha * target

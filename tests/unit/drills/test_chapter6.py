@@ -21,8 +21,10 @@ def test_failures_avoided_in_a_hundred_maps() -> None:
 def test_effects_by_least_squares() -> None:
     design = [[1, a, b, (2 * a - 1) * (2 * b - 1)] for a in (0, 1) for b in (0, 1)]
     for question in drawn("effects-of-two-changes"):
-        fitted = np.linalg.solve(np.array(design, float), numbers(question.text)[:4])
+        rates = numbers(question.text)[:4]
+        fitted = np.linalg.solve(np.array(design, float), rates)
         assert question.asked.answer[0] == pytest.approx(fitted[1:3])
+        assert 0 <= min(rates) <= max(rates) <= 100
 
 
 def test_fields_in_a_row_by_the_powers_of_a_matrix() -> None:
