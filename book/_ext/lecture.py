@@ -753,8 +753,9 @@ def cut(part: Part) -> list[Part]:
     halves = []
     for found in (code[:at], code[at:]):
         tag = copy.copy(part.tag)
-        tag.pre.clear()
-        tag.pre.append(BeautifulSoup("\n".join(found).strip("\n"), "html.parser"))
+        text = "\n".join(found).strip("\n")
+        # outside of pre the parser makes one space of those that indent a line
+        tag.pre.replace_with(BeautifulSoup(f"<pre>{text}</pre>", "html.parser"))
         half = Part("listing", [tag], part.names, part.heading, part.section)
         texts = tag.pre.get_text().split("\n")
         half.lines, half.columns = len(texts), max(map(len, texts))

@@ -384,7 +384,8 @@ def test_a_mark_may_show_what_stood_last_before_it() -> None:
 def test_a_long_listing_continues_on_the_next_slide() -> None:
     """It is cut between two statements, and no line and no minute is lost."""
     code = "def f(x):\n" + "".join(
-        f"    if x > {k}:\n        x += {k}\n" for k in range(19)
+        f"<span>    </span>if x > {k}:\n<span>        </span>x += {k}\n"
+        for k in range(19)
     )
     listing = f'<div class="literal-block-wrapper"><pre>{code}</pre></div>'
     tag = BeautifulSoup(listing, "html.parser").div
@@ -393,7 +394,8 @@ def test_a_long_listing_continues_on_the_next_slide() -> None:
     slide = Slide("listing", "f", "", [part], fixed=3)
     first, second = lecture.with_short_listings([slide])
     halves = [each.parts[0] for each in (first, second)]
-    assert "\n".join(half.tag.pre.get_text() for half in halves) == code.rstrip()
+    shown = "\n".join(half.tag.pre.get_text() for half in halves)
+    assert shown == re.sub(r"<[^>]+>", "", code).rstrip()
     assert all(half.lines <= lecture.MOST_LINES for half in halves)
     assert halves[1].tag.pre.get_text().startswith("    if x >")
     assert first.fixed + second.fixed == 3
