@@ -195,3 +195,15 @@ def test_how_far_the_accuracy_is_from_the_thesis():
     found = results.summary("accuracy", case)
     assert round(found.mean - 83.62) == 2
     assert found.low > 83.62
+
+
+def test_nnql_spreads_no_more_than_nfq():
+    """In training both spread equally for 120 episodes, four blocks, and then NNQL spreads less."""
+    curves = read_results("figure-4.6")
+    methods = [case["method"] for case in curves.experiment.cases]
+    nnql, nfq = (
+        curves.values("successes", methods.index(name)).std(axis=0)
+        for name in ("nnql", "nfq")
+    )
+    np.testing.assert_allclose(nnql[:4], nfq[:4], atol=0.4)
+    assert (nnql[4:] < nfq[4:]).all()
