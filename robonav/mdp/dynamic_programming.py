@@ -209,7 +209,7 @@ def policy_iteration(
         q = mdp.rewards + gamma * expected  # Q_pi (S, A)  Eq. (2.15)
         gains = q - q[states, policy][:, None]  # Q_pi(s, a) - V_pi(s)
         # Of two equal actions, rounding makes one look better, which is not a gain.
-        rounding = 4 * np.spacing(abs(values).max()) / (1 - gamma)
+        rounding = 4 * np.spacing(abs(values).max()) / (1 - gamma)  # for gamma < 1
         better = gains.max(axis=1) > max(tolerance * (1 - gamma), rounding)
         policy = np.where(better, gains.argmax(axis=1), policy)  # 10  Eq. (2.25)
         converged = not better.any()

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from itertools import cycle
 from pathlib import Path
 
+import gymnasium as gym
 import numpy as np
 import pytest
 
@@ -164,6 +165,17 @@ def test_one_step_and_three_updates(written, method, target):
     assert q[0][0] == pytest.approx(2 + 0.5 * (target - 2))
     assert f"= {target:g}$" in text
     assert f"{q[0][0]:.2f}" in text
+
+
+@pytest.mark.parametrize(("slippery", "ends_in"), [(False, 0), (True, 12)])
+def test_always_left_on_the_lake(written, slippery, ends_in):
+    """Without slips the first action leaves the agent at the start, and with slips it ends in the lower left hole."""
+    text = written("model-free-learning", "Always taking the first", "Testing with")
+    assert "without slipping" in text
+    assert "the hole in the corner" in text
+    lake = gym.make("FrozenLake-v1", is_slippery=slippery)
+    left = mdp.FiniteMDP.from_gymnasium(lake, 1.0).transitions[0].toarray()
+    assert np.linalg.matrix_power(left, 1000)[0, ends_in] == pytest.approx(1)
 
 
 def test_a_belief_update(written):
