@@ -15,6 +15,7 @@ import re
 import sys
 import textwrap
 from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path
 
 import citations
@@ -59,9 +60,15 @@ def plumbing(code: str) -> list[str]:
     return sorted(found)
 
 
+@lru_cache(maxsize=4)
+def parsed(html: str) -> BeautifulSoup:
+    """Return the elements of a page. Several checks look at the same page one after the other."""
+    return BeautifulSoup(html, "html.parser")
+
+
 def wide_cells(html: str) -> Iterator[str]:
     """Yield one sentence for each line of a page's own code cells that is too wide."""
-    soup = BeautifulSoup(html, "html.parser")
+    soup = parsed(html)
     for number, cell in enumerate(soup.select("div.cell"), start=1):
         for code in cell.select("div.cell_input pre"):
             if code.find_parent("details") is None:
@@ -72,7 +79,7 @@ def wide_cells(html: str) -> Iterator[str]:
 
 def wide_stubs(html: str) -> Iterator[str]:
     """Yield one sentence for each line of an exercise's file that is too wide. Imports may be shown there."""
-    soup = BeautifulSoup(html, "html.parser")
+    soup = parsed(html)
     for caption in soup.select("div.literal-block-wrapper > div.code-block-caption"):
         name = caption.select_one("span.caption-text").get_text()
         if name.startswith("exercises/"):
@@ -83,7 +90,7 @@ def wide_stubs(html: str) -> Iterator[str]:
 
 def faults(html: str) -> Iterator[str]:
     """Yield one sentence for each fault of the listings of one page."""
-    soup = BeautifulSoup(html, "html.parser")
+    soup = parsed(html)
     waiting: list[str] = []  # equations that are not followed by a listing yet
     for found in soup.select("div.math[id^=equation-eq-], div.function-source"):
         if "math" in (found.get("class") or ()):

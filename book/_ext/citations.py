@@ -132,13 +132,18 @@ def without_docstring(source: str) -> str:
     return "".join(lines[: docstring.lineno - 1] + lines[after:])
 
 
-def in_file(path: Path) -> Iterator[Documented]:
+def in_file(path: Path) -> tuple[Documented, ...]:
     """Return every function, class and method of one file of the package."""
-    text = path.read_text("utf-8")
+    return _in_text(path, path.read_text("utf-8"), PACKAGE.parent)
+
+
+@cache
+def _in_text(path: Path, text: str, root: Path) -> tuple[Documented, ...]:
+    """Return what :func:`in_file` returns. The same text is parsed once."""
     lines = text.splitlines(keepends=True)
-    module = ".".join(
-        path.relative_to(PACKAGE.parent).with_suffix("").parts
-    ).removesuffix(".__init__")
+    module = ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(
+        ".__init__"
+    )
 
     def visit(node: ast.Module | ast.ClassDef, name: str) -> Iterator[Documented]:
         for child in node.body:
@@ -151,7 +156,7 @@ def in_file(path: Path) -> Iterator[Documented]:
             if isinstance(child, ast.ClassDef):
                 yield from visit(child, f"{name}.{child.name}")
 
-    return visit(ast.parse(text), module)
+    return tuple(visit(ast.parse(text), module))
 
 
 def documented(package: Path = PACKAGE) -> list[Documented]:

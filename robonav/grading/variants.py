@@ -13,6 +13,7 @@ with the book's: stubs, notebooks, the zip for students, the page, the checks at
 from __future__ import annotations
 
 import ast
+import functools
 import hashlib
 import itertools
 import json
@@ -509,7 +510,12 @@ def _sections(course: Course, chapter: str) -> dict[str, str]:
 
     What stands before the parts of an exercise, and after those of the one before, belongs to it.
     """
-    text = (course.tests / f"test_{chapter}.py").read_text("utf-8")
+    return _cut((course.tests / f"test_{chapter}.py").read_text("utf-8"))
+
+
+@functools.cache
+def _cut(text: str) -> dict[str, str]:
+    """Return a chapter's tests, cut into sections; the same text is parsed once. Nothing may change the result."""
     lines, sections, start = text.splitlines(keepends=True), {}, 0
     ends: dict[str, int] = {}
     for node in ast.parse(text).body:
@@ -534,6 +540,7 @@ def _part_of(node: ast.stmt) -> str:
     return ""
 
 
+@functools.cache
 def _without_parts(section: str) -> str:
     """Return a section of tests with its helpers only, which other exercises may use."""
     return _without(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import io
 import math
 import re
@@ -335,8 +336,9 @@ def _arc(numbers: list[float], start: tuple[float, float]) -> list[tuple[float, 
     ]
 
 
+@functools.lru_cache(maxsize=256)
 def png(svg: str) -> bytes:
-    """Return an SVG picture of a drill as PNG, black on white.
+    """Return an SVG picture of a drill as PNG, black on white. The same picture is drawn once.
 
     Parameters
     ----------

@@ -1,7 +1,8 @@
-"""The numbers in the text of a question, from which a test works the answer out in its own way."""
+"""Questions, each drawn once for all tests, and the numbers in their texts, from which a test works the answer out."""
 
 from __future__ import annotations
 
+import functools
 import re
 
 from robonav.drills import DRILLS, Question
@@ -21,6 +22,12 @@ def numbers(text: str) -> list[float]:
     ]
 
 
+@functools.cache
+def question_of(name: str, seed: int) -> Question:
+    """The question of a drill with a seed. Many tests look at the same ones, and some take long to draw."""
+    return DRILLS[name].question(seed)
+
+
 def drawn(name: str) -> list[Question]:
     """Some questions of a drill."""
-    return [DRILLS[name].question(seed) for seed in SEEDS]
+    return [question_of(name, seed) for seed in SEEDS]

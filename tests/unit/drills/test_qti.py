@@ -31,23 +31,28 @@ def made(bank: list[Drawn]) -> dict[str, Item]:
     return {item.name: item for item in items(bank)}
 
 
-@pytest.fixture(scope="module", params=["canvas", "blackboard"])
-def package(bank: list[Drawn], request) -> zipfile.ZipFile:
-    return zipfile.ZipFile(io.BytesIO(qti_zip(bank, "Robots", request.param)))
+@pytest.fixture(scope="module")
+def packages(bank: list[Drawn]) -> dict[str, zipfile.ZipFile]:
+    return {
+        platform: zipfile.ZipFile(io.BytesIO(qti_zip(bank, "Robots", platform)))
+        for platform in ("canvas", "blackboard")
+    }
+
+
+@pytest.fixture(params=["canvas", "blackboard"])
+def package(packages: dict[str, zipfile.ZipFile], request) -> zipfile.ZipFile:
+    return packages[request.param]
 
 
 @pytest.fixture(scope="module")
-def canvas(bank: list[Drawn]) -> dict[str, ElementTree.Element]:
-    content = zipfile.ZipFile(io.BytesIO(qti_zip(bank))).read(
-        "questions/assessment.xml"
-    )
-    root = ElementTree.fromstring(content)
+def canvas(packages: dict[str, zipfile.ZipFile]) -> dict[str, ElementTree.Element]:
+    root = ElementTree.fromstring(packages["canvas"].read("questions/assessment.xml"))
     return {item.get("ident", ""): item for item in root.iter(f"{CANVAS}item")}
 
 
 @pytest.fixture(scope="module")
-def blackboard(bank: list[Drawn]) -> dict[str, ElementTree.Element]:
-    package = zipfile.ZipFile(io.BytesIO(qti_zip(bank, platform="blackboard")))
+def blackboard(packages: dict[str, zipfile.ZipFile]) -> dict[str, ElementTree.Element]:
+    package = packages["blackboard"]
     roots = {
         name.split("/")[1].removesuffix(".xml"): ElementTree.fromstring(
             package.read(name)
@@ -225,10 +230,10 @@ def test_pictures_are_in_the_package(package, bank) -> None:
         assert package.read(name).startswith(b"\x89PNG")
 
 
-def test_blackboard_s_files_follow_a_schema_of_qti_21(bank) -> None:
+def test_blackboard_s_files_follow_a_schema_of_qti_21(bank, packages) -> None:
     etree = pytest.importorskip("lxml.etree")
     schema = etree.RelaxNG(etree.parse(Path(__file__).with_name("qti21.rng")))
-    package = zipfile.ZipFile(io.BytesIO(qti_zip(bank, platform="blackboard")))
+    package = packages["blackboard"]
     names = [name for name in package.namelist() if re.search(r"/.*\.xml$", name)]
     assert len(names) > len(bank)
     for name in names:

@@ -8,9 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numbers_in_texts import numbers
-
-from robonav.drills import DRILLS
+from numbers_in_texts import numbers, question_of
 
 Mistakes = Callable[[str], list[Any]]
 FEW, SEEDS = 100, 1000
@@ -65,7 +63,7 @@ MISTAKES: dict[str, Mistakes] = {
 
 def check(name: str, seeds: range) -> None:
     for seed in seeds:
-        question = DRILLS[name].question(seed)
+        question = question_of(name, seed)
         for answer in MISTAKES[name](question.text):
             verdict = question.judge(answer)
             assert not verdict.right, (seed, answer)
@@ -85,5 +83,5 @@ def test_no_usual_mistake_is_right_in_a_thousand_questions(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["left-open", "one-round-in-order"])
 def test_texts_differ_from_question_to_question(name: str) -> None:
-    texts = {DRILLS[name].question(seed).text for seed in range(FEW)}
+    texts = {question_of(name, seed).text for seed in range(FEW)}
     assert len(texts) >= 15

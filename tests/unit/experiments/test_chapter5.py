@@ -131,6 +131,7 @@ def test_neutral_ends_are_told_from_a_bonus():
     assert "terminal_values" not in tuned("scirl")
 
 
+@pytest.mark.slow
 def test_learning_twice_in_a_process_is_learning_once():
     first = trained("nirl", 0, tuned("nirl"), length=SHORT)
     same = Settings.of(json.loads(tuned("nirl").as_json()))

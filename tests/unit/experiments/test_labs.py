@@ -33,8 +33,9 @@ def test_every_number_is_taken_where_it_is_said_to_be(results):
 
 @pytest.mark.parametrize(
     ("name", "case"),
-    [("lab-lfd", 3), pytest.param("lab-nirl", 0, marks=pytest.mark.slow)],
+    [("lab-lfd", 3), ("lab-nirl", 0)],
 )
+@pytest.mark.slow
 def test_a_run_comes_out_again(name, case):
     experiment = next(found for found in labs.EXPERIMENTS if found.name == name)
     kept = read_results(experiment)

@@ -86,6 +86,7 @@ def test_the_manifest_has_six_exercises_a_chapter_of_every_kind():
         }
 
 
+@pytest.mark.slow
 def test_open_tasks_tell_how_often_right_answers_pass():
     """The manifest has what the benchmark measured, and stubs and notebooks say it."""
     import nbformat  # takes seconds, so other tests do without

@@ -47,6 +47,7 @@ def test_the_answers_of_the_measurement_are_right(kind, name):
         assert result["state"] == "correct", result["feedback"]
 
 
+@pytest.mark.slow
 def test_copies_are_found_and_honest_pairs_are_not():
     found = BENCHMARK.measured(15, 6)["reported"]
     assert found["honest"] <= 0.01
@@ -54,9 +55,8 @@ def test_copies_are_found_and_honest_pairs_are_not():
 
 
 @pytest.mark.parametrize("disguises", [BENCHMARK.DISGUISES[:3], ()])
-@pytest.mark.parametrize(
-    "size", [3, *(pytest.param(n, marks=pytest.mark.slow) for n in (4, 6, 11))]
-)
+@pytest.mark.parametrize("size", [3, 4, 6, 11])
+@pytest.mark.slow
 def test_a_ring_does_not_hide_itself(size, disguises):
     for found, ring in BENCHMARK.ringed(2, size, disguises):
         reported = [{pair.first, pair.second} for pair in found if pair.reported]
@@ -171,6 +171,7 @@ def test_a_class_is_compared_and_shown_side_by_side(tmp_path):
     assert page.count("<details>") == 1
 
 
+@pytest.mark.slow
 def test_the_lines_of_a_ring_are_marked(tmp_path):
     folder = handed_over(tmp_path / "class")
     for number in range(4):

@@ -128,7 +128,7 @@ def test_too_much_is_not_taken(tmp_path):
     assert loaded.problems == ("more than 200 Python files and notebooks",)
 
 
-@pytest.mark.parametrize("kind", ["zip", "tar"])
+@pytest.mark.parametrize("kind", ["zip", pytest.param("tar", marks=pytest.mark.slow)])
 def test_an_archive_of_a_few_bytes_is_not_unpacked_to_gigabytes(tmp_path, kind):
     """Neither at once, nor in many parts, nor in archives within archives."""
     if kind == "zip":

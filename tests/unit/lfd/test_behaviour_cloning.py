@@ -164,6 +164,7 @@ def test_behaviour_cloning_and_learn_policy():
     assert all(map(np.array_equal, one.weights, other.weights))
 
 
+@pytest.mark.slow
 def test_the_python_of_the_playground_trains_a_robot_that_drives(tmp_path, monkeypatch):
     page = (Path(__file__).parents[3] / "book/playground.md").read_text("utf-8")
     code = [

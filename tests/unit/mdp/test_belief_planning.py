@@ -87,6 +87,7 @@ def test_the_tigers_value_as_published():
     ]
 
 
+@pytest.mark.slow
 def test_the_policy_earns_what_it_says():
     pomdp = tiger(discount=0.75)
     policy = point_based_value_iteration(pomdp, spread_beliefs(pomdp, [0.5, 0.5], 40))

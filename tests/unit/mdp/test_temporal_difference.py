@@ -188,6 +188,7 @@ def test_sarsas_target_is_the_action_that_follows():
     assert settled.mean() == pytest.approx(4.5, abs=0.4)
 
 
+@pytest.mark.slow
 def test_q_learning_tends_to_the_plan_on_frozen_lake():
     lake = gym.make("FrozenLake-v1", max_episode_steps=1000)
     planned = optimal_q(FiniteMDP.from_gymnasium(lake, 0.9))
@@ -313,6 +314,7 @@ def test_bold_costs_more_while_learning():
     assert bold[100:].mean() < safe[100:].mean() - 10
 
 
+@pytest.mark.slow
 def test_taxi_is_driven_optimally_from_every_start():
     taxi = gym.make("Taxi-v4")
     mdp = FiniteMDP.from_gymnasium(taxi, 0.99)

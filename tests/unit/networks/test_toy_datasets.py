@@ -27,7 +27,9 @@ def test_labels_follow_the_geometry():
     np.testing.assert_array_equal(y[:, 0], np.hypot(*x.T) < 0.6)
 
 
-@pytest.mark.parametrize("problem", ["xor", "disc"])
+@pytest.mark.parametrize(
+    "problem", ["xor", pytest.param("disc", marks=pytest.mark.slow)]
+)
 def test_no_line_parts_the_examples_but_a_few_hidden_units_do(problem):
     x, y = TOY_DATASETS[problem](200, seed=0)
     assert fit(x, y, hidden=(), regularisation=0.01).accuracies[-1] < 0.85

@@ -79,6 +79,7 @@ def test_equal_expectations_equal_values(terrain, weights):
     assert initial_expectations(terrain.task, policy) @ weights == pytest.approx(value)
 
 
+@pytest.mark.slow
 def test_sampled_expectations_approach_the_exact_ones(terrain):
     walks = terrain.task.rollout(terrain.expert, 4000, 80, seed=1)
     features = terrain.task.features[walks.states, walks.actions].reshape(-1, 4)

@@ -24,6 +24,7 @@ from robonav.nirl import (
 )
 
 
+@pytest.mark.slow
 def test_plain_ascent_comes_to_the_same(terrain):
     mu = initial_expectations(terrain.task, terrain.expert)
     fast = maximum_causal_entropy(terrain.task, mu, regularisation=1.0)

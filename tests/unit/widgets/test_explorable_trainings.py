@@ -139,6 +139,7 @@ def test_apprenticeship_on_the_ground(guess):
     assert min(page.points("lost")) >= 0
 
 
+@pytest.mark.slow
 def test_the_reward_of_maximum_entropy():
     page = Page("walk_features")
     ended = page.train(demonstrations=0, iterations=40, regularisation=0.1)

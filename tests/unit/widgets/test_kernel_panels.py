@@ -155,6 +155,7 @@ def test_experts_are_compared_by_the_robots_that_learn_from_them(told):
     assert len(points(messages, "accuracy")) == 6
 
 
+@pytest.mark.slow
 def test_dagger_is_tried_round_after_round(told):
     messages, report = told
     lab = dagger_lab.dagger_lab(method("dagger"), maps=10)
@@ -169,6 +170,7 @@ def test_dagger_is_tried_round_after_round(told):
     assert rates[-1] > rates[0]
 
 
+@pytest.mark.slow
 def test_a_cancelled_training_of_dagger_ends_at_its_next_round():
     cancelled = threading.Event()
     cancelled.set()

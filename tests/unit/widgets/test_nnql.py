@@ -223,8 +223,8 @@ def test_without_a_worker_the_page_answers_within_100_ms(node):
 @pytest.mark.parametrize(
     ("method", "seeds"),
     [
-        ("nnql", 10),
-        ("dqn", 10),
+        ("nnql", 5),
+        ("dqn", 5),
         *(
             pytest.param(method, 20, marks=pytest.mark.exhaustive)
             for method in ("nnql", "online", "dqn")
