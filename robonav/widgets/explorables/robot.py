@@ -41,8 +41,8 @@ def sensor_sectors() -> dict[str, Any]:
 
 @asks(
     "Policy or reflex: who decides?",
-    "The map has 10 obstacles, and the sensors have a range of 10 m. "
-    "In what share of the free places does the policy decide, and not a reflex?",
+    "Guess for 10 obstacles and a sensor range of 10 m, then set the map to 10 obstacles: "
+    "in what share of the free places does the policy decide, and not a reflex?",
     guesses=["20 %", "40 %", "67 %", "90 %"],
     right="67 %",
     because="Each obstacle is sensed from 10 m away, and so is the border of the map, so most places "

@@ -11,8 +11,9 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
-from robonav import mdp
+from robonav import mdp, robot
 from robonav.mdp.belief_planning import backup
+from robonav.robot._fast import constants
 
 BOOK = Path(__file__).parents[3] / "book"
 
@@ -176,6 +177,36 @@ def test_always_left_on_the_lake(written, slippery, ends_in):
     lake = gym.make("FrozenLake-v1", is_slippery=slippery)
     left = mdp.FiniteMDP.from_gymnasium(lake, 1.0).transitions[0].toarray()
     assert np.linalg.matrix_power(left, 1000)[0, ends_in] == pytest.approx(1)
+
+
+def test_robot_in_numbers(written):
+    """The box at the top of the page has the numbers of the simulator."""
+    box = written("robot", "The robot in numbers", "## What it senses")
+    worlds = robot.random_worlds(1, 10, seed=0)
+    x, y, heading = worlds.start_poses[0]
+    assert f"a square of {worlds.size:.0f} m" in box
+    assert (
+        f"at ({x:.0f}, {y:.0f}), facing the target (heading {np.degrees(heading):.0f}°)"
+        in box
+    )
+    assert "at ({:.0f}, {:.0f})".format(*worlds.targets[0]) in box
+    assert f"within {constants.ARRIVAL_DISTANCE:.0f} m of it" in box
+    assert f"they reach {constants.SENSOR_RANGE:.0f} m" in box
+    assert f"nearer than {constants.COLLISION_DISTANCE:.0f} m" in box
+    defaults = inspect.signature(robot.navigate).parameters
+    assert f"at most {defaults['max_steps'].default} steps" in box
+    assert f"{defaults['speed'].default:g} m/s" in box
+
+
+def test_reading_of_a_circle_beside_the_sector(written):
+    text = written("robot", "The circle also reaches", "```{code-cell}")
+    along = 8 * np.cos(np.radians(20)) + 2 * np.sin(np.radians(20))
+    beside = np.sqrt(8**2 + 2**2 - along**2)
+    half = np.sqrt(4**2 - beside**2)
+    world = robot.make_world(circles=[(38, 30, 4)])
+    reading = robot.sense(world, [[30, 28, np.radians(40)]]).ranges[0, 0]
+    assert along - half == pytest.approx(reading, abs=1e-5)
+    assert_written(text, [along, beside, half, reading], 2)
 
 
 def test_a_belief_update(written):
