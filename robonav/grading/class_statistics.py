@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from dataclasses import dataclass, field
+from typing import Any
 
 from robonav.atomic import write_text
 
+from .grade import not_taken
 from .gradebook import Gradebook
 from .report import csv_text, page
 
@@ -50,7 +52,9 @@ class ExerciseCount:
 
 
 def counts(book: Gradebook) -> dict[str, ExerciseCount]:
-    """Count states and hints over the submissions of a class. A group's submission counts once.
+    """Count states and hints over the submissions of a class.
+
+    A group's submission counts once. One of which nothing could be taken does not count.
 
     Examples
     --------
@@ -64,11 +68,11 @@ def counts(book: Gradebook) -> dict[str, ExerciseCount]:
     >>> counts(book)["2.1"].hints
     {'A sign.': {'ada'}}
     """
-    found = {}
+    found, taken = {}, _taken(book)
     for id in book.course.exercises:
         parts, hints = dict[str, PartCount](), defaultdict[str, set[str]](set)
         attempted, points = 0, 0.0
-        for name, grade in book.grades.items():
+        for name, grade in taken.items():
             for entry in grade["exercises"]:
                 if entry["id"] != id:
                     continue
@@ -82,6 +86,10 @@ def counts(book: Gradebook) -> dict[str, ExerciseCount]:
         by_number = sorted(hints.items(), key=lambda hint: (-len(hint[1]), hint[0]))
         found[id] = ExerciseCount(parts, dict(by_number), attempted, points)
     return found
+
+
+def _taken(book: Gradebook) -> dict[str, dict[str, Any]]:
+    return {name: one for name, one in book.grades.items() if not not_taken(one)}
 
 
 def write_statistics(book: Gradebook) -> None:
@@ -98,7 +106,7 @@ def write_statistics(book: Gradebook) -> None:
     >>> sorted(path.name for path in folder.iterdir())
     ['statistics.csv', 'statistics.html']
     """
-    found, total = counts(book), len(book.grades)
+    found, total = counts(book), len(_taken(book))
     rows: list[list[object]] = [["exercise", "what", "text", "submissions", "of"]]
     for id, count in found.items():
         title = book.course.exercises[id].title
@@ -112,5 +120,11 @@ def write_statistics(book: Gradebook) -> None:
             [id, "hint", hint, len(names), total] for hint, names in count.hints.items()
         ]
     write_text(book.folder / "statistics.csv", csv_text(rows))
-    text = page("statistics.html", found=found, total=total, course=book.course)
+    text = page(
+        "statistics.html",
+        found=found,
+        total=total,
+        refused=len(book.grades) - total,
+        course=book.course,
+    )
     write_text(book.folder / "statistics.html", text)

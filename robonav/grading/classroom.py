@@ -33,7 +33,7 @@ from .check import graded, remarks, with_public_feedback
 from .course import Course, trusted
 from .evidence import Evidence
 from .grade import fault_grade, grade
-from .layouts import Handin, handed_in, passed_over
+from .layouts import Handin, handed_in, on_times, passed_over
 from .reference import reference
 from .session import Session
 from .submission import Refused, Submission
@@ -206,7 +206,11 @@ def grade_class(
                 progress(done, len(tasks))
         _tell(out, submissions)
         return report.write_class(
-            out, list(submissions), passed_over(folder), config.course
+            out,
+            list(submissions),
+            passed_over(folder),
+            config.course,
+            on_times(submissions),
         )
 
 

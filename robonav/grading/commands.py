@@ -312,12 +312,12 @@ def mark_by_hand(
     by: Annotated[str, typer.Option(help="Who decided. It is kept in the log.")],
 ) -> None:
     """Change a mark by hand. The change stays when the class is graded again."""
-    from .gradebook import change, plain
+    from .gradebook import change, plain, why_no_mark
 
     book = _book(graded)
     account, id = book.account(student), book.course.named(exercise).id
     if id not in account.marks:
-        raise ValueError(f"{account.student.id} has no mark for {id}")
+        raise ValueError(why_no_mark(book, account, id))
     try:
         given = None if points == "grader" else float(points)
     except ValueError:
@@ -380,8 +380,13 @@ def export(
         print(remark, file=sys.stderr)
     if platform == "moodle" and (remark := exports.other_maximum(book)):
         print(remark, file=sys.stderr)
+    for said in exports.not_all_taken(book):
+        print(said, file=sys.stderr)
     if names := exports.unsettled(book):
         print(f"Left empty, because they are not settled: {', '.join(names)}.", file=sys.stderr)  # fmt: skip
+        for account in book.accounts:
+            for problem in account.problems if account.student.id in names else ():
+                print(f"  {account.student.id}: {problem}", file=sys.stderr)
         raise typer.Exit(1)
 
 

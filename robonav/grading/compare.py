@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
 
 RELATIVE = 1e-5  # large enough for an answer computed in single precision
 MOST_SHOWN = 300  # characters of an argument
+MINUS_ZERO = re.compile(r"(?<![\w.])-(?=0(\.0*)?(?![\w.]))")  # the sign
 SCALED = 1e-6  # allows for cancellation, relative to the largest expected number
 
 
@@ -176,8 +178,9 @@ def _argument(value: Any) -> str:
             text = f"{value:.6g}"
         case _:
             text = str(value)
+    text = MINUS_ZERO.sub("", text)
     return text if len(text) <= MOST_SHOWN else kind(value)
 
 
 def _number(value: Any) -> str:
-    return f"{value:.6g}" if np.asarray(value).dtype.kind == "f" else str(value)
+    return f"{value:z.6g}" if np.asarray(value).dtype.kind == "f" else str(value)

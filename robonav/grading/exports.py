@@ -82,15 +82,33 @@ def unsettled(book: Gradebook) -> list[str]:
     return [a.student.id for a in book.accounts if _total(a) == "" and a.problems]
 
 
+def not_all_taken(book: Gradebook) -> list[str]:
+    """Return a sentence for each student who has a mark, though a part of the submission could not be taken.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from robonav.grading.course import Course
+    >>> from robonav.grading.ledger import Log
+    >>> from robonav.grading.roster import Student
+    >>> ada = Account(Student("ada"), "ada", {}, ["Not taken, though exercises are missing: a link."])
+    >>> not_all_taken(Gradebook(Path(), Course.around(Path()), [ada], [], Log([], [], [], ""), {}))
+    ['ada: Not taken, though exercises are missing: a link.']
+    """
+    return [
+        f"{account.student.id}: {problem}"
+        for account in book.accounts
+        for problem in account.problems
+        if problem.startswith("Not taken") and _total(account)
+    ]
+
+
 def _total(account: Account) -> str:
     """Return the sum of a student's points, or an empty cell if there is none or it is not certain."""
-    open = any(mark.points is None and mark.state == "grader-fault" for mark in account.marks.values())  # fmt: skip
     changed = any(mark.by_hand for mark in account.marks.values())
-    if open or not (account.submission or changed):
+    if account.total is None or not (account.submission or changed):
         return ""
-    if any("cannot be told" in problem for problem in account.problems):
-        return ""
-    return plain(account.points)
+    return plain(account.total)
 
 
 def _most(book: Gradebook) -> int:
@@ -211,7 +229,7 @@ def _gradescope(book: Gradebook, title: str) -> list[list[Any]]:
                 _named(row, "Email") or _named(row, "Email address"),
                 total,
                 account.most,
-                "Graded" if total else "Missing",
+                "Graded" if total else "Ungraded" if account.submission else "Missing",
                 *(plain(account.marks[id].points) if total and id in account.marks else "" for id in ids),
             ]
         )  # fmt: skip
@@ -256,7 +274,7 @@ def write_feedback(book: Gradebook, folder: Path) -> list[Path]:
         record = book.grades[account.submission] | {"student": account.student.name}
         rows: list[Sequence[Any]] = [["exercise", "points", "max_points", "late"]]
         rows += [
-            [id, mark.points, mark.most, mark.late.said]
+            [id, None if account.open else mark.points, mark.most, mark.late.said]
             for id, mark in account.marks.items()
         ]
         content = io.BytesIO()

@@ -124,6 +124,22 @@ def fault_grade(exercises: Iterable[Exercise], tier: str) -> dict[str, Any]:
     return grade([exercise_grade(exercise, []) for exercise in exercises], tier)
 
 
+def not_taken(record: Mapping[str, Any]) -> str:
+    """Return why nothing of a submission could be taken, or an empty string if something was, or nothing was there.
+
+    Such a submission has no points rather than 0 points.
+
+    Examples
+    --------
+    >>> not_taken({"exercises": [], "files": {}, "problems": ["work.rar was not taken"]})
+    'work.rar was not taken'
+    """
+    failed = any(entry["points"] is None for entry in record["exercises"])
+    if record.get("files") or failed:
+        return ""
+    return "; ".join(record.get("problems", ()))
+
+
 def printable(text: str, most: int = MOST_FEEDBACK) -> str:
     """Replace characters that files and terminals cannot show, because a student's error message may contain any."""
     kept = "".join(

@@ -9,20 +9,22 @@ from __future__ import annotations
 import json
 import math
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from robonav.atomic import write_text
 
-from . import ledger
+from . import arrival, ledger
+from .arrival import Arrival
 from .classroom import HANDED_IN
 from .course import Course
+from .grade import not_taken
 from .ledger import Log
 from .report import csv_text, page
 from .roster import Matching, Student, fitting, forms, match, one, read_roster
-from .rules import Late, Rules, read_rules
+from .rules import RULES, Late, Rules, read_rules
 
 ROSTER = "roster.csv"
 
@@ -45,6 +47,8 @@ class Mark:
         The last change by hand, which counts instead.
     late : Late
         How late it was.
+    submission : str
+        The submission that was graded, or an empty string.
     """
 
     exercise: str
@@ -53,6 +57,7 @@ class Mark:
     state: str
     by_hand: Mapping[str, Any] | None = None
     late: Late = field(default_factory=Late)
+    submission: str = ""
 
     @property
     def before(self) -> float | None:
@@ -68,8 +73,19 @@ class Mark:
 
     @property
     def graded_since(self) -> bool:
-        """Whether the grader has given other points since the change by hand."""
-        return self.by_hand is not None and self.by_hand["graded"] != self.graded
+        """Whether the grader has given the submission other points since the change by hand."""
+        if self.by_hand is None or self.other_submission:
+            return False
+        return self.by_hand["graded"] != self.graded
+
+    @property
+    def other_submission(self) -> bool:
+        """Whether another submission counted when the mark was changed by hand, or none."""
+        if self.by_hand is None:
+            return False
+        if "submission" not in self.by_hand:  # of an older log
+            return self.by_hand["graded"] is None and self.graded is not None
+        return self.by_hand["submission"] != self.submission
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,12 +102,27 @@ class Account:
         The marks by exercise.
     problems : list of str
         What keeps the marks from being final.
+    handed_in : str
+        When the submission came, as far as it can be told.
+    open : bool
+        Whether the marks cannot be told before a problem is settled.
     """
 
     student: Student
     submission: str
     marks: dict[str, Mark]
     problems: list[str] = field(default_factory=list)
+    handed_in: str = ""
+    open: bool = False
+
+    @property
+    def total(self) -> float | None:
+        """The sum of the points that count, or None if it cannot be told yet."""
+        failed = any(
+            mark.points is None and mark.state == "grader-fault"
+            for mark in self.marks.values()
+        )
+        return None if self.open or failed else self.points
 
     @property
     def points(self) -> float:
@@ -128,6 +159,10 @@ class Gradebook:
         What was graded and changed.
     grades : dict of str to dict
         The grades by submission.
+    rules : Rules
+        The rules.
+    notes : list of str
+        What is assumed about the class.
     """
 
     folder: Path
@@ -136,6 +171,8 @@ class Gradebook:
     problems: list[str]
     log: Log
     grades: dict[str, dict[str, Any]]
+    rules: Rules = field(default_factory=Rules)
+    notes: list[str] = field(default_factory=list)
 
     def account(self, word: str) -> Account:
         """Return the account of the student with this id, name, login or address."""
@@ -176,46 +213,111 @@ def read_gradebook(folder: Path, course: Course) -> Gradebook:
     grades = {
         name: grade for name in handed_in if (grade := _grade(folder, name)) is not None
     }
-    same = {name: grade["submission"] for name, grade in grades.items()}
-    people = {name: told["people"] for name, told in handed_in.items()}
-    if (folder / ROSTER).exists():
-        students = read_roster(folder / ROSTER, rules.teams)
-        rules, unknown = with_ids(rules, students)
-        students = _in_groups(students, rules)
-        matching = match(students, people, rules.matches, same)
-    else:
-        students = [
-            Student(name, name, names=frozenset(forms(name))) for name in handed_in
-        ]
-        rules, unknown = with_ids(rules, students)
-        students = _in_groups(students, rules)
-        matching = Matching({name: name for name in handed_in}, [], set())
-        if rules.groups:
-            decided = {**{s.id: s.id for s in students}, **rules.matches}
-            matching = match(students, people, decided, same)
-    problems = list(matching.problems)
-    problems += [
-        f"{name} is not graded yet: run robonav grade again"
-        for name in handed_in
-        if name not in grades
-    ]
-    problems += [
-        f"Line {number} of {ledger.LOG} was changed by something else than robonav."
-        for number in log.broken
-    ]
-    problems += unknown
-    book = Gradebook(folder, course, [], problems, log, grades)
+    students, rules, matching, unknown = _matched(folder, rules, handed_in, grades)
+    book = Gradebook(folder, course, [], [], log, grades, rules)
     earlier, changed = _earlier(folder, rules, course), _by_student(log)
-    graded = {e["id"] for grade in grades.values() for e in grade["exercises"]}
-    everything = graded or set(course.exercises)
     for student in students:
         used = sum(one.get(student.id, 0) for one in earlier)
         told = handed_in.get(matching.submissions.get(student.id, ""), {})
-        free = rules.free_days - used
-        book.accounts.append(
-            _account(book, student, matching, told, rules, free, changed, everything)
+        free = max(rules.free_days - used, 0)
+        changes = _changes(
+            changed, student.id, matching.submissions.get(student.id, "")
         )
+        book.accounts.append(_account(book, student, matching, told, free, changes))
+    book.problems.extend(
+        [
+            *matching.problems,
+            *(
+                f"{name} is not graded yet: run robonav grade again"
+                for name in handed_in
+                if name not in grades
+            ),
+            *(
+                f"Line {number} of {ledger.LOG} was changed by something else than robonav."
+                for number in log.broken
+            ),
+            *unknown,
+            *_that_count_no_more(book, changed),
+            *arrival.advice(book.rules, _arrivals(book, arrival.UNTOLD)),
+        ]
+    )
+    book.notes.extend(arrival.assumptions(_arrivals(book, arrival.ASSUMED)))
     return book
+
+
+def _matched(
+    folder: Path,
+    rules: Rules,
+    handed_in: Mapping[str, Mapping[str, Any]],
+    grades: Mapping[str, Mapping[str, Any]],
+) -> tuple[list[Student], Rules, Matching, list[str]]:
+    """Return the students, the rules with their ids, whose each submission is, and what the rules name wrongly."""
+    same = {name: grade["submission"] for name, grade in grades.items()}
+    people = {name: told["people"] for name, told in handed_in.items()}
+    roster = (folder / ROSTER).exists()
+    students = (
+        read_roster(folder / ROSTER, rules.teams)
+        if roster
+        else [Student(name, name, names=frozenset(forms(name))) for name in handed_in]
+    )
+    rules, unknown = with_ids(rules, students)
+    students = _in_groups(students, rules)
+    unknown += [
+        f"The rules name the submission {name} in [{table}], but there is none of this name."
+        for table, named in (("matches", rules.matches), ("submitted", rules.submitted))
+        for name in named
+        if name not in handed_in
+    ]
+    if roster:
+        matching = match(students, people, rules.matches, same)
+    elif rules.groups:
+        decided = {**{s.id: s.id for s in students}, **rules.matches}
+        matching = match(students, people, decided, same)
+    else:
+        matching = Matching({name: name for name in handed_in}, [], set())
+    return students, rules, matching, unknown
+
+
+def _arrivals(book: Gradebook, kinds: Collection[str]) -> dict[str, str]:
+    """Return what is told of the submissions that came like this."""
+    return {
+        account.submission: account.handed_in
+        for account in book.accounts
+        if account.handed_in in kinds
+    }
+
+
+def _that_count_no_more(
+    book: Gradebook, changed: Mapping[str, Sequence[tuple[int, dict[str, Any]]]]
+) -> list[str]:
+    """Return a sentence for each change by hand of an exercise that does not count."""
+    found = []
+    for account in book.accounts:
+        changes = _changes(changed, account.student.id, account.submission)
+        found += [
+            f"{account.student.name}: the mark for {id} that was changed by hand does not count. "
+            + why_no_mark(book, account, id)
+            for id in changes
+            if id not in account.marks
+        ]
+    return found
+
+
+def why_no_mark(book: Gradebook, account: Account, exercise: str) -> str:
+    """Say why a student has no mark for an exercise.
+
+    Examples
+    --------
+    >>> book = Gradebook(Path(), Course.around(Path()), [], [], Log([], [], [], ""), {}, Rules(exercises={"2.1"}))
+    >>> why_no_mark(book, Account(Student("ada"), "", {}), "3.1")
+    '3.1 does not count, because exercises in rules.toml does not name it: add it there first.'
+    """
+    if exercise not in book.course.exercises:
+        return f"{exercise} is no exercise of this course."
+    if book.rules.exercises and exercise not in book.rules.exercises:
+        return f"{exercise} does not count, because exercises in {RULES} does not name it: add it there first."
+    who = account.student.id
+    return f"{exercise} was not graded for {who}: grade it first, with robonav grade ... --exercise {exercise}."
 
 
 def change(
@@ -262,6 +364,8 @@ def change(
     >>> change(book, account, "2.1", 3, "right idea", "Dr B.")["points"]
     3
     """
+    if exercise not in account.marks:
+        raise ValueError(why_no_mark(book, account, exercise))
     mark = account.marks[exercise]
     if points is not None and not 0 <= points <= mark.most:
         raise ValueError(f"points of {exercise} must be from 0 to {mark.most}, got {points:g}")  # fmt: skip
@@ -273,6 +377,7 @@ def change(
         "exercise": exercise,
         "points": points,
         "graded": mark.graded,
+        "submission": mark.submission,
         "reason": reason,
         "by": by,
     }
@@ -292,8 +397,8 @@ def write_gradebook(book: Gradebook) -> None:
     """
     exercises = _exercises(book)
     rows: list[list[Any]] = [
-        ["student", "name", "group", "submission", "points", "max_points", "changed_by_hand", "late", "problems"]
-        + exercises
+        ["student", "name", "group", "submission", "handed_in", "points", "max_points", "changed_by_hand"]
+        + ["late", "problems", *exercises]
     ]  # fmt: skip
     for account in book.accounts:
         marks = account.marks
@@ -303,7 +408,8 @@ def write_gradebook(book: Gradebook) -> None:
                 account.student.name,
                 account.student.group,
                 account.submission,
-                account.points,
+                account.handed_in,
+                account.total,
                 account.most,
                 " ".join(id for id, mark in marks.items() if mark.by_hand),
                 " ".join(id for id, mark in marks.items() if mark.late.days),
@@ -429,53 +535,107 @@ def _account(
     student: Student,
     matching: Matching,
     told: Mapping[str, Any],
-    rules: Rules,
     free: int,
-    changed: Mapping[str, Sequence[tuple[int, dict[str, Any]]]],
-    everything: set[str],
+    changes: Mapping[str, Mapping[str, Any]],
 ) -> Account:
+    """Return the marks of a student, who has so many free days left."""
     submission, problems = matching.submissions.get(student.id, ""), list[str]()
     grade = book.grades.get(submission)
     entries = {e["id"]: e for e in grade["exercises"]} if grade else {}
+    refused = not_taken(grade) if grade else ""
     if student.id in matching.unsettled:
         problems.append("It is not certain which submission is this student's.")
     if grade and grade["tier"] == "practice":
         problems.append("Graded for practice, without a sandbox: these are no marks.")
-    changes = _changes(changed, student.id, submission)
-    late = dict[str, Late]()
-    if submission and rules.deadlines:
-        written = told.get("submitted") or student.submitted
-        time = rules.submitted.get(submission) or rules.time(written)
-        answered = [id for id, e in entries.items() if e["state"] != "missing"]
-        if time is not None:
-            late = rules.lateness(student.id, answered, time, max(free, 0))
-        elif any(rules.due(student.id, id) for id in answered):
-            how = f" from {written!r}" if written else ""
-            said = ", and the platform calls it late" if told.get("late") else ""
-            problems.append(f"It cannot be told{how} when it was handed in{said}.")
-    assigned = set(entries) or everything
-    marks = {}
-    for id, exercise in book.course.exercises.items():
-        entry = entries.get(id)
-        if rules.exercises and id not in rules.exercises:
-            continue
-        if id not in assigned and id not in changes:
-            continue
-        marks[id] = Mark(
-            id,
-            entry["max_points"] if entry else exercise.points,
-            entry["points"] if entry else None,
-            entry["state"] if entry else "missing",
-            changes.get(id),
-            late.get(id, Late()),
-        )
-        if marks[id].state == "grader-fault" and id not in changes:
-            problems.append(f"The grader failed in {id}: run robonav grade again.")
-        if marks[id].graded_since:
-            problems.append(
-                f"{id} was graded again since its mark was changed by hand: look whether the change still holds."
-            )
-    return Account(student, submission, marks, problems)
+    answered = [id for id, e in entries.items() if e["state"] != "missing"]
+    arrived = (
+        Arrival()
+        if refused or not submission
+        else arrival.of(student, submission, told, answered, book.rules, free)
+    )
+    problems += [arrived.problem] if arrived.problem else []
+    marks = {
+        id: _mark(book, id, None if refused else entries.get(id), changes.get(id), arrived, submission)
+        for id in _assigned(book, entries, changes)
+    }  # fmt: skip
+    problems += _remaining(grade, refused, marks)
+    problems += [said for mark in marks.values() for said in _look_at(mark)]
+    decided = any(mark.by_hand for mark in marks.values())
+    open = student.id in matching.unsettled or bool(refused)
+    return Account(
+        student,
+        submission,
+        marks,
+        problems,
+        arrived.said,
+        bool(arrived.problem) or (open and not decided),
+    )
+
+
+def _assigned(
+    book: Gradebook, entries: Collection[str], changes: Collection[str]
+) -> list[str]:
+    """Return the exercises for which a student has a mark."""
+    graded = {e["id"] for grade in book.grades.values() for e in grade["exercises"]}
+    assigned = set(entries) or graded or set(book.course.exercises)
+    counted = book.rules.exercises or set(book.course.exercises)
+    return [
+        id
+        for id in book.course.exercises
+        if id in counted and (id in assigned or id in changes)
+    ]
+
+
+def _mark(
+    book: Gradebook,
+    id: str,
+    entry: Mapping[str, Any] | None,
+    change: Mapping[str, Any] | None,
+    arrived: Arrival,
+    submission: str,
+) -> Mark:
+    return Mark(
+        id,
+        entry["max_points"] if entry else book.course.exercises[id].points,
+        entry["points"] if entry else None,
+        entry["state"] if entry else "missing",
+        change,
+        arrived.late.get(id, Late()),
+        submission,
+    )
+
+
+def _remaining(
+    grade: Mapping[str, Any] | None, refused: str, marks: Mapping[str, Mark]
+) -> list[str]:
+    """Say what was not taken of a submission, if an answer that counts may be in it."""
+    if refused:
+        return [
+            f"Nothing of the submission could be taken: {refused}. There is no mark, rather than 0; hand in for the "
+            "student what can be read, and grade again, or change the marks by hand."
+        ]
+    if grade is None or all(mark.state != "missing" for mark in marks.values()):
+        return []
+    return [
+        f"Not taken, though exercises are missing: {problem}."
+        for problem in grade.get("problems", ())
+    ]
+
+
+def _look_at(mark: Mark) -> list[str]:
+    """Say what has to be looked at in a mark."""
+    if mark.state == "grader-fault" and not mark.by_hand:
+        return [f"The grader failed in {mark.exercise}: run robonav grade again."]
+    if mark.other_submission:
+        return [
+            f"Another submission counts for {mark.exercise} than when its mark was changed by hand: look whether the "
+            "change still holds."
+        ]
+    if mark.graded_since:
+        return [
+            f"{mark.exercise} was graded again since its mark was changed by hand: look whether the change still holds."
+        ]
+    return []
 
 
 def _by_student(log: Log) -> dict[str, list[tuple[int, dict[str, Any]]]]:

@@ -7,29 +7,38 @@ Blackboard      ``Exercises 2_ada_attempt_2024-05-01-10-30-00_improve.py``
 Gradescope      ``submission_123/`` beside ``submission_metadata.yml``, which has the names
 anything else   a folder, archive, notebook or Python file with the student's name
 =============== ======================================================================================
+
+Blackboard's names and Gradescope's list have the time of each submission. Canvas's names only say which ones are late,
+and the other names say nothing about time.
 """
 
 from __future__ import annotations
 
 import re
 from collections import Counter, defaultdict
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+
+from robonav.counting import counted
 
 from . import submission
 from .submission import Refused, Submission
 
-LAYOUTS = [
-    re.compile(r"(?P<student>[^_]+)(?P<late>_LATE)?_(?P<user>\d+)_\d+_(?P<file>.+)"),
-    re.compile(
+CANVAS = "Canvas"
+LAYOUTS = {
+    CANVAS: re.compile(
+        r"(?P<student>[^_]+)(?P<late>_LATE)?_(?P<user>\d+)_\d+_(?P<file>.+)"
+    ),
+    "Moodle": re.compile(
         r"(?P<student>.+)_(?P<user>\d+)_assignsubmission_(file|onlinetext)(_(?P<file>.*))?"
     ),
-    re.compile(
+    "Blackboard": re.compile(
         r".+_(?P<student>[^_]+)_attempt_(?P<date>\d{4}(-\d\d)+)(_(?P<file>.+)|(?P<receipt>\.txt))"
     ),
-    re.compile(r"submission_(?P<user>\d+)"),
-]
+    "Gradescope": re.compile(r"submission_(?P<user>\d+)"),
+}
 METADATA = "submission_metadata.yml"
 
 
@@ -49,6 +58,8 @@ class Handin:
         When it was handed in, as the platform writes it, or an empty string.
     late : bool
         Whether the platform calls it late.
+    platform : str
+        The platform whose names it has, or an empty string.
     """
 
     parts: dict[str, Path] = field(default_factory=dict)
@@ -56,10 +67,16 @@ class Handin:
     people: list[list[str]] = field(default_factory=list)
     submitted: str = ""
     late: bool = False
+    platform: str = ""
 
     def told(self) -> dict[str, Any]:
         """Return whose it is and when it was handed in, for the gradebook."""
-        return {"people": self.people, "submitted": self.submitted, "late": self.late}
+        return {
+            "people": self.people,
+            "submitted": self.submitted,
+            "late": self.late,
+            "platform": self.platform,
+        }
 
     def load(self) -> Submission | Refused:
         """Return the submission, or the reason why it is refused."""
@@ -69,24 +86,28 @@ class Handin:
             return refused
 
 
+class _Part(NamedTuple):
+    """What the name of a file tells: whose it is, and its name within the submission."""
+
+    path: Path
+    name: str
+    student: str = ""
+    user: str = ""
+    date: str = ""
+    late: bool = False
+    platform: str = ""
+
+
 def handed_in(folder: Path) -> dict[str, Handin]:
     """Return what each student handed in, by the student's name."""
-    people: dict[tuple[str, str], dict[str, list[tuple[str, Path]]]] = defaultdict(
-        lambda: defaultdict(list)
-    )
+    people: dict[tuple[str, str], list[_Part]] = defaultdict(list)
     for path in _entries(folder):
-        if person := _person(path):
-            student, user, date, name = person
-            people[student, user][date].append((name, path))
+        if part := _part(path):
+            people[part.student, part.user].append(part)
     listed, found = _listed(folder), dict[str, Handin]()
     same = Counter(student for student, _ in people)
-    for (student, user), attempts in sorted(people.items()):
-        handin = Handin(notes=_notes_on(attempts))
-        for name, path in attempts[max(attempts)]:
-            handin.parts[name if name not in handin.parts else path.name] = path
-            handin.late |= "_LATE_" in path.name
-        handin.submitted = max(attempts)
-        handin.people = [[student, *([f"#{user}"] if user else [])]] if student else []
+    for (student, user), parts in sorted(people.items()):
+        handin = _handin(parts)
         name = student or f"submission_{user}"
         if not student and user in listed and listed[user].people:
             name = " and ".join(names[0] for names in listed[user].people)
@@ -101,12 +122,66 @@ def handed_in(folder: Path) -> dict[str, Handin]:
     return found
 
 
+def _handin(parts: list[_Part]) -> Handin:
+    """Return the last attempt of a student."""
+    last = max(part.date for part in parts)
+    handin = Handin(notes=_notes_on(parts, last), submitted=last)
+    for part in parts:
+        if part.date == last:
+            new = part.name not in handin.parts
+            handin.parts[part.name if new else part.path.name] = part.path
+            handin.late |= part.late
+            handin.platform = part.platform
+            user = [f"#{part.user}"] if part.user else []
+            handin.people = [[part.student, *user]] if part.student else []
+    return handin
+
+
+def on_times(handins: Mapping[str, Handin]) -> list[str]:
+    """Say what the names of the files tell about when submissions were handed in, where it is not a time.
+
+    Examples
+    --------
+    >>> on_times({"ada": Handin(platform="Canvas"), "bo": Handin(submitted="2026-10-12-22-14-00")})
+    ["Canvas's names tell no time: the submission without _LATE_ in its name counts as handed in by the deadline."]
+    """
+    canvas = {name: one for name, one in handins.items() if one.platform == CANVAS}
+    late = [name for name, one in canvas.items() if one.late and not one.submitted]
+    untold = [n for n, one in handins.items() if not one.submitted and n not in canvas]
+    said = []
+    if in_time := len(canvas) - len(late):
+        which = (
+            f"the {in_time} submissions without _LATE_ in their names count"
+            if in_time > 1
+            else "the submission without _LATE_ in its name counts"
+        )
+        said.append(
+            f"Canvas's names tell no time: {which} as handed in by the deadline."
+        )
+    if late:
+        said.append(
+            f"Canvas calls {_some(late)} late, and does not tell by how much. If lateness costs points in your rules, "
+            "write under [submitted] in rules.toml when they came."
+        )
+    if untold:
+        said.append(
+            f"The files do not tell when {_some(untold)} came. If there is a deadline, the roster must tell it: "
+            "Moodle's grading worksheet and GitHub Classroom's list of an assignment do. Or write it in rules.toml."
+        )
+    return said
+
+
+def _some(names: list[str]) -> str:
+    """Return the names, or how many they are."""
+    return ", ".join(names) if len(names) <= 10 else counted(len(names), "submission")
+
+
 def passed_over(folder: Path) -> list[str]:
     """Return the names of the files in a class that are nobody's submission."""
     return [
         path.name
         for path in _entries(folder)
-        if _person(path) is None and path.name != METADATA
+        if _part(path) is None and path.name != METADATA
     ]
 
 
@@ -114,28 +189,30 @@ def _entries(folder: Path) -> list[Path]:
     return sorted(path for path in folder.iterdir() if path.name[0] != ".")
 
 
-def _person(path: Path) -> tuple[str, str, str, str] | None:
-    """Return the student, the student's number, the date and the name within the submission, as far as told."""
-    for layout in LAYOUTS:
+def _part(path: Path) -> _Part | None:
+    """Return what the name of a file tells, or None if it is nobody's."""
+    for platform, layout in LAYOUTS.items():
         if match := layout.fullmatch(path.name):
             told = match.groupdict()
-            return (
+            return _Part(
+                path,
+                told.get("file") or path.name,
                 told.get("student") or "",
                 told.get("user") or "",
                 told.get("date") or "",
-                told.get("file") or path.name,
+                bool(told.get("late")),
+                platform,
             )
     if path.is_dir():
-        return path.name, "", "", path.name
+        return _Part(path, path.name, path.name)
     if submission.is_handed_in(path.name):
-        return submission.stem(path.name), "", "", path.name
+        return _Part(path, path.name, submission.stem(path.name))
     return None
 
 
-def _notes_on(attempts: dict[str, list[tuple[str, Path]]]) -> list[str]:
+def _notes_on(parts: list[_Part], last: str) -> list[str]:
     """Say which attempt counts, and that several files count as one submission."""
-    last = max(attempts)
-    names = [path.name for _, path in attempts[last]]
+    names = [part.path.name for part in parts if part.date == last]
     notes = (
         [f"{' and '.join(names)} are one submission"]
         if 1 < len(names) < 4
@@ -143,8 +220,9 @@ def _notes_on(attempts: dict[str, list[tuple[str, Path]]]) -> list[str]:
         if len(names) > 1
         else []
     )
-    if len(attempts) > 1:
-        notes.append(f"the attempt of {last} counts, the last of {len(attempts)}")
+    attempts = len({part.date for part in parts})
+    if attempts > 1:
+        notes.append(f"the attempt of {last} counts, the last of {attempts}")
     return notes
 
 

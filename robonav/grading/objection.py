@@ -15,7 +15,7 @@ from .classroom import students
 from .course import Exercise
 from .evidence import Evidence
 from .grade import printable
-from .gradebook import Account, Gradebook, plain
+from .gradebook import Account, Gradebook, plain, why_no_mark
 from .reference import reference
 from .session import Session
 from .submission import Submission
@@ -62,7 +62,7 @@ def explain(book: Gradebook, account: Account, exercise: Exercise) -> str:
     No submission of this student is graded.
     """
     if exercise.id not in account.marks:
-        raise ValueError(f"{account.student.id} has no mark for {exercise.id}")
+        raise ValueError(why_no_mark(book, account, exercise.id))
     return "\n".join(_lines(book, account, exercise))
 
 

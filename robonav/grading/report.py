@@ -15,7 +15,7 @@ from robonav.atomic import write_text
 from robonav.style import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW
 
 from .course import Course
-from .grade import STATES
+from .grade import STATES, not_taken
 
 COLOURS = dict(
     zip(
@@ -33,66 +33,110 @@ def write_student(folder: Path, record: dict[str, Any], course: Course) -> None:
 
 
 def write_class(
-    out: Path, names: Sequence[str], passed_over: Sequence[str], course: Course
+    out: Path,
+    names: Sequence[str],
+    passed_over: Sequence[str],
+    course: Course,
+    times: Sequence[str] = (),
 ) -> list[str]:
-    """Write the gradebook and the overview of these students, with the names of the files that are not submissions.
+    """Write the gradebook and the overview of a class.
+
+    Parameters
+    ----------
+    out : Path
+        The folder of grades.
+    names : sequence of str
+        The students.
+    passed_over : sequence of str
+        The names of the files that are nobody's submission.
+    course : Course
+        The course.
+    times : sequence of str
+        What is assumed about when they handed in.
 
     Returns
     -------
     list of str
         The students who must be graded again.
     """
-    rows, counts, earned, totals, unfinished = (
-        [],
-        {id: Counter[str]() for id in course.exercises},
-        Counter[str](),
-        [],
-        [],
-    )
-    notes: dict[str, list[str]] = {}
-    problems: dict[str, list[str]] = {}
-    for name in names:
-        record = json.loads((out / "students" / name / "grade.json").read_bytes())
-        entries = {entry["id"]: entry for entry in record["exercises"]}
-        again = [id for id, entry in entries.items() if entry["points"] is None]
-        unfinished += [name] if again else []
-        notes[name] = record.get("notes", [])
-        problems[name] = record.get("problems", [])
-        points = [
-            entries[id]["points"] if id in entries else None for id in course.exercises
-        ]
-        rows.append(
-            [
-                name,
-                record["points"],
-                record["max_points"],
-                record["tier"],
-                " ".join(again),
-                "; ".join(problems[name]),
-                *points,
-            ]
-        )
-        totals.append(record["points"])
-        for id, entry in entries.items():
-            counts[id][entry["state"]] += 1
-            earned[id] += entry["points"] or 0
-    write_text(out / "gradebook.csv", gradebook(rows, course))
-    shares = {
-        id: earned[id] / (course.exercises[id].points * max(len(rows), 1))
-        for id in course.exercises
+    records = {
+        name: json.loads((out / "students" / name / "grade.json").read_bytes())
+        for name in names
     }
+    rows = [_row(name, record, course) for name, record in records.items()]
+    write_text(out / "gradebook.csv", gradebook(rows, course))
     overview = page(
-        "overview.html", rows=rows, counts=counts, shares=shares, totals=totals, course=course, colours=COLOURS,
+        "overview.html",
+        records=records,
+        course=course,
+        colours=COLOURS,
+        again={name: _again(record) for name, record in records.items()},
         passed_over=[name.encode("utf-8", "replace").decode() for name in passed_over],
-        folders=[f"students/{name}/feedback.html" for name in names], notes=notes, problems=problems,
-    )  # fmt: skip
+        times=times,
+        **_in_all(records, course),
+    )
     write_text(out / "index.html", overview)
-    return unfinished
+    return [name for name, record in records.items() if _again(record)]
+
+
+def _row(name: str, record: dict[str, Any], course: Course) -> list[Any]:
+    """Return a student's line of the gradebook. Where nothing was taken, there are no points, rather than 0."""
+    entries = {entry["id"]: entry for entry in record["exercises"]}
+    empty = bool(not_taken(record))
+    points = [
+        None if empty or id not in entries else entries[id]["points"]
+        for id in course.exercises
+    ]
+    return [
+        name,
+        None if empty else record["points"],
+        record["max_points"],
+        record["tier"],
+        " ".join(_again(record)),
+        "; ".join(record.get("problems", ())),
+        *points,
+    ]
+
+
+def _again(record: dict[str, Any]) -> list[str]:
+    """Return the exercises that must be graded again."""
+    return [entry["id"] for entry in record["exercises"] if entry["points"] is None]
+
+
+def _in_all(records: dict[str, dict[str, Any]], course: Course) -> dict[str, Any]:
+    """Return how the submissions of which something was taken did in each exercise, and in all that anyone answered."""
+    taken = {name: one for name, one in records.items() if not not_taken(one)}
+    counts = {id: Counter[str]() for id in course.exercises}
+    earned = Counter[str]()
+    for record in taken.values():
+        for entry in record["exercises"]:
+            counts[entry["id"]][entry["state"]] += 1
+            earned[entry["id"]] += entry["points"] or 0
+    answered = [
+        id for id, states in counts.items() if states.total() > states["missing"]
+    ] or [*counts]
+    number = max(len(taken), 1)
+    return {
+        "taken": taken,
+        "counts": counts,
+        "shares": {
+            id: earned[id] / (course.exercises[id].points * number) for id in counts
+        },
+        "answered": answered,
+        "most": sum(course.exercises[id].points for id in answered),
+        "average": earned.total() / number,
+    }
 
 
 def feedback(record: dict[str, Any], course: Course, account: Any = None) -> str:
     """Return the feedback page of a student, with the marks that count where there is an account of them."""
-    return page("feedback.html", record=record, course=course, account=account)
+    return page(
+        "feedback.html",
+        record=record,
+        course=course,
+        account=account,
+        not_taken=not_taken(record),
+    )
 
 
 def gradescope(record: dict[str, Any], course: Course) -> dict[str, Any]:

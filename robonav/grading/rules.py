@@ -35,6 +35,7 @@ TEMPLATE = """\
 # most = 50                       # per cent at most
 # closed_after = 7                # days after which an exercise gives no points
 # earlier = ["../graded-ch2"]     # folders of grades in which free days were used before
+# assume_in_time = true           # a submission whose time nobody tells was handed in by the deadline
 
 # [[extensions]]
 # student = "ada"                 # here and below: an id, name, email address or account of the roster
@@ -56,7 +57,7 @@ KEYS: dict[str, set[str]] = {
         "timezone", "exercises", "teams", "deadlines", "late", "extensions", "groups", "matches", "submitted",
     },
     "late": {
-        "grace_minutes", "free_days", "penalty", "most", "closed_after", "earlier",
+        "grace_minutes", "free_days", "penalty", "most", "closed_after", "earlier", "assume_in_time",
     },
     "extensions": {"student", "exercises", "until", "reason"},
 }  # fmt: skip
@@ -119,6 +120,8 @@ class Rules:
         Days after which there are no points.
     earlier : sequence of str
         Folders in which free days were used before.
+    assume_in_time : bool
+        Whether a submission whose time is not known, and which no platform calls late, was handed in by the deadline.
     exercises : frozenset of str
         Ids of the exercises that count. If it is empty, all do.
     teams : bool
@@ -137,8 +140,14 @@ class Rules:
     most: float = 100.0
     closed_after: int | None = None
     earlier: Sequence[str] = ()
+    assume_in_time: bool = False
     exercises: frozenset[str] = frozenset()
     teams: bool = False
+
+    @property
+    def lateness_costs(self) -> bool:
+        """Whether anything is taken off an answer that is late enough."""
+        return self.closed_after is not None or self.penalty * self.most > 0
 
     def due(self, student: str, exercise: str) -> datetime | None:
         """Return the deadline of a student's exercise, or None if it has none."""
@@ -304,9 +313,6 @@ def _rules(written: Mapping[str, Any], course: Course) -> Rules:
     counted = written.get("exercises", [])
     if not isinstance(counted, list):
         raise ValueError('exercises must be a list such as ["2", "3.1"]')
-    teams = written.get("teams", False)
-    if not isinstance(teams, bool):
-        raise ValueError(f"teams must be true or false, got {teams}")
     closed = late.get("closed_after")
     return Rules(
         deadlines={
@@ -339,10 +345,11 @@ def _rules(written: Mapping[str, Any], course: Course) -> Rules:
         if closed is None
         else int(_number(late, "closed_after", 0, 1000)),
         earlier=earlier,
+        assume_in_time=_truth(late, "assume_in_time"),
         exercises=frozenset(
             one.id for key in counted for one in course.selected(str(key))
         ),
-        teams=teams,
+        teams=_truth(written, "teams"),
     )
 
 
@@ -381,3 +388,10 @@ def _number(table: Mapping[str, Any], name: str, default: float, most: float) ->
     if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value <= most:  # fmt: skip
         raise ValueError(f"{name} must be a number from 0 to {most:g}, got {value}")
     return float(value)
+
+
+def _truth(table: Mapping[str, Any], name: str) -> bool:
+    value = table.get(name, False)
+    if not isinstance(value, bool):
+        raise ValueError(f"{name} must be true or false, got {value}")
+    return value

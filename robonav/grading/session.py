@@ -393,7 +393,7 @@ class Answer:
         ):
             return ""
         right, own = (
-            ", ".join(f"{row[0]:g}" for row in table.tolist())
+            ", ".join(f"{row[0]:zg}" for row in table.tolist())
             for table in tables
             if table is not None
         )

@@ -19,7 +19,16 @@ import pytest
 from typer.testing import CliRunner
 
 from robonav.cli import app
-from robonav.grading import classroom, commands, layouts, sandbox_check, session
+from robonav.grading import (
+    class_statistics,
+    classroom,
+    commands,
+    exports,
+    gradebook,
+    layouts,
+    sandbox_check,
+    session,
+)
 from robonav.grading.classroom import (
     GradingConfig,
     grade_class,
@@ -176,6 +185,64 @@ def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_pat
     suite = ElementTree.parse(out / "students/anna/junit.xml").getroot()
     assert suite.get("failures") == "2"
     assert len(suite.findall("testcase/failure")) == 2
+
+
+def test_what_cannot_be_taken_has_no_mark_rather_than_zero(course, tmp_path):
+    """Archives of another kind, a damaged one, another file, and code of something else; the others are graded."""
+    folder, out = tmp_path / "class", tmp_path / "out"
+    (folder / "anna").mkdir(parents=True)
+    (folder / "anna/improve.py").write_text(PASSES)
+    (folder / "eve").mkdir()
+    for name in ("carl.rar", "dora.7z", "emil.zip"):
+        (folder / name).write_bytes(b"PK\3\4 not an archive")
+    for name in (
+        "finn/report.pdf",
+        "gwen/other.py",
+        "hugo/improve.py",
+        "hugo/more.rar",
+    ):
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text(PASSES if name == "hugo/improve.py" else "x = 1")
+    grade_class(GradingConfig(course, "practice"), folder, out, jobs=1)
+    refused = ["carl", "dora", "emil", "finn", "gwen"]
+    with (out / "gradebook.csv").open(newline="", encoding="utf-8-sig") as file:
+        points = {row["student"]: row for row in csv.DictReader(file)}
+    book = gradebook.read_gradebook(out, course)
+    gradebook.write_gradebook(book)
+    with (out / "marks.csv").open(newline="", encoding="utf-8-sig") as file:
+        marks = {row["student"]: row for row in csv.DictReader(file)}
+    for name in refused:
+        assert (points[name]["points"], points[name]["2.2"]) == ("", "")
+        assert points[name]["not_taken"]
+        assert (marks[name]["points"], marks[name]["2.2"]) == ("", "")
+        assert "Nothing of the submission could be taken: " in marks[name]["problems"]
+    assert "hand in a zip" in marks["carl"]["problems"]
+    assert (marks["eve"]["points"], points["eve"]["points"]) == ("0.0", "0")
+    # Of hugo a part was taken, which counts, and what was not is said.
+    assert marks["hugo"]["points"] == "4.0"
+    assert "Not taken, though exercises are missing: more.rar" in marks["hugo"]["problems"]  # fmt: skip
+    overview = (out / "index.html").read_text()
+    red = overview[overview.index('<ul class="bad">') : overview.index("</ul>")]
+    assert all(f">{name}</a>: " in red for name in [*refused, "hugo"])
+    assert "8 students; of 5 nothing could be taken" in overview
+    for platform in exports.FORMATS:
+        text = exports.marks_for(book, platform, "Work").splitlines()
+        for name in refused:
+            line = next(one for one in text if name in one)
+            assert line.endswith(",") or ",,12,Ungraded," in line
+    assert exports.unsettled(book) == refused
+    assert [said[:16] for said in exports.not_all_taken(book)] == ["hugo: Not taken,"]
+    tried = class_statistics.counts(book)
+    assert {id: tried[id].attempted for id in ("2.1", "2.2")} == {"2.1": 0, "2.2": 2}
+    class_statistics.write_statistics(book)
+    assert "5 of which nothing could be taken do not count" in (
+        (out / "statistics.html").read_text()
+    )
+    feedback = (out / "students/carl/feedback.html").read_text()
+    assert "carl: no mark yet" in feedback
+    # A mark by hand counts.
+    gradebook.change(book, book.account("carl"), "2.2", 3, "read it on paper", "Dr B.")
+    assert gradebook.read_gradebook(out, course).account("carl").total == 3
 
 
 def test_what_is_graded_stays_and_what_changed_is_graded_again(folder, tmp_path, quick):

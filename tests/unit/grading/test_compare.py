@@ -1,5 +1,7 @@
 """Comparing answers: what counts as the same, and what is said where it is not."""
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -48,6 +50,8 @@ def test_a_changed_number_is_found_where_it_is(array, data):
         (["1", "2", "3"], np.zeros(3), "got a list of 3"),
         (np.zeros((3, 1)), np.zeros(3), "got an array of shape (3, 1)"),
         ([0, float("nan"), 0], np.zeros(3), "at [1] expected 0, got nan"),
+        ([[1.0]], np.array([[-0.0]]), "at [0, 0] expected 0, got 1"),
+        ([-0.0, 2], np.array([1.0, 2]), "at [0] expected 1, got 0"),
         ([0, 1.5, 0], np.zeros(3, int), "at [1] expected 0, got 1.5"),
         (2, np.array([True]), "expected an array of shape (1,), got a whole number"),
         ([2], np.array([True]), "at [0] expected True, got 2"),
@@ -112,3 +116,19 @@ def test_a_call_shows_small_arguments_and_the_kinds_of_large_ones():
     assert call("f", arguments).startswith(
         "f([1.5, 2. ], 0.25, [1, 2], an array of shape (1000,), {"
     )
+
+
+def test_minus_zero_is_shown_as_zero_and_other_signs_stay():
+    arguments = (
+        -0.0,
+        np.array([-0.0, -1e-9, -0.5, -10.0]),
+        [-0.0, -0.25],
+        -0.0625,
+        "a-0",
+    )
+    shown = call("f", arguments)
+    assert shown.startswith("f(0, [")
+    assert "-0.0," not in shown.replace("-0.0625", "")
+    assert not re.search(r"-0\.?[ ,\]]", shown)
+    for kept in ("-0.5", "-10.", "-0.25", "-0.0625", "a-0"):
+        assert kept in shown

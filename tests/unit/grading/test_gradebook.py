@@ -444,21 +444,40 @@ def test_lateness_counts_and_a_time_that_is_not_known_is_a_problem(tmp_path, qui
                 "people": [["Ada Lovelace", "s1", "a@u.edu"], ["Bo Diddley", "s2"]],
                 "submitted": "2026-10-12 22:14:00.397482000 Z",
                 "late": False,
+                "platform": "Gradescope",
             },
         ),
         (
             {"lovelaceada_LATE_17_99_a.py": ""},
-            {"people": [["lovelaceada", "#17"]], "submitted": "", "late": True},
+            {
+                "people": [["lovelaceada", "#17"]],
+                "submitted": "",
+                "late": True,
+                "platform": "Canvas",
+            },
         ),
         (
             {"Work_ada_attempt_2026-10-12-22-14-00_a.py": ""},
-            {"people": [["ada"]], "submitted": "2026-10-12-22-14-00", "late": False},
+            {
+                "people": [["ada"]],
+                "submitted": "2026-10-12-22-14-00",
+                "late": False,
+                "platform": "Blackboard",
+            },
         ),
         (
             {"Ada Lovelace_17_assignsubmission_file_/a.py": ""},
-            {"people": [["Ada Lovelace", "#17"]], "submitted": "", "late": False},
+            {
+                "people": [["Ada Lovelace", "#17"]],
+                "submitted": "",
+                "late": False,
+                "platform": "Moodle",
+            },
         ),
-        ({"ada/a.py": ""}, {"people": [["ada"]], "submitted": "", "late": False}),
+        (
+            {"ada/a.py": ""},
+            {"people": [["ada"]], "submitted": "", "late": False, "platform": ""},
+        ),
     ],
     ids=["gradescope", "canvas", "blackboard", "moodle", "folder"],
 )
@@ -469,6 +488,160 @@ def test_what_the_platforms_tell_is_written_down(tmp_path, quick, files, told):
     grade_class(HERE, tmp_path / "class", tmp_path / "out", jobs=1)
     found = json.loads((tmp_path / "out" / classroom.HANDED_IN).read_text())
     assert list(found.values()) == [told]
+
+
+COSTS = "[deadlines]\n2 = 2026-10-12T23:59:00\n[late]\npenalty = 10\n"
+
+
+def class_of(tmp_path, files, roster, rules):
+    """The gradebook of files with these names, all with right answers."""
+    for name in files:
+        path = tmp_path / "class" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("full")
+    out = tmp_path / "out"
+    grade_class(HERE, tmp_path / "class", out, jobs=1)
+    (out / ROSTER).write_text(roster, "utf-8")
+    (out / RULES).write_text(rules, "utf-8")
+    return read_gradebook(out, COURSE)
+
+
+def test_canvas_names_tell_who_is_in_time_and_the_others_stay_open(tmp_path, quick):
+    """Canvas marks the late ones with _LATE_ and tells no times; a student's own file name tells nothing."""
+    files = ["lovelaceada_17_99_a.py", "diddleybo_LATE_18_98_a.py", "yuzoe_19_97_my_LATE_try.py"]  # fmt: skip
+    text = CANVAS + '"Yu, Zoe",19,s3,zyu,A,\n'
+    book = class_of(tmp_path, files, text, COSTS)
+    out = tmp_path / "out"
+    assert [a.total for a in book.accounts] == [8, None, 8]
+    assert [row[5] for row in rows(exports.marks_for(book, "canvas", "W"))[2:]] == [
+        "8", "", "8",
+    ]  # fmt: skip
+    done = invoke("export", out, tmp_path / "m.csv", "--format", "canvas")
+    assert done.exit_code == 1
+    assert "Left empty, because they are not settled: s2." in done.stderr
+    assert "s2: Canvas calls it late, and it cannot be told by how much" in done.stderr
+    write_all(out)
+    page, line = (out / "marks.html").read_text(), rows((out / "marks.csv").read_text())
+    assert "2 submissions have no time and no _LATE_ in their names" in page
+    assert "Write when they came in rules.toml, under [submitted]" in page
+    assert "&#34;diddleybo&#34; = 2026-10-12T23:59:00" in page
+    heading = line[0].index("handed_in")
+    assert [one[heading] for one in line[1:]] == [
+        "in time, as Canvas does not call it late",
+        "late, as Canvas says; when is not told",
+        "in time, as Canvas does not call it late",
+    ]
+    assert [one[line[0].index("points")] for one in line[1:]] == ["8.0", "", "8.0"]
+    overview = (out / "index.html").read_text()
+    assert "the 2 submissions without _LATE_ in their names count as handed in by the deadline" in overview  # fmt: skip
+    assert "Canvas calls diddleybo late, and does not tell by how much" in overview
+    # The instructor says when it came, or lateness costs nothing.
+    told = COSTS + "[submitted]\ndiddleybo = 2026-10-14T12:00:00\n"
+    assert class_of(tmp_path, files, text, told).accounts[1].total == 6.4
+    free = "[deadlines]\n2 = 2026-10-12T23:59:00\n"
+    assert [a.total for a in class_of(tmp_path, files, text, free).accounts] == [8] * 3
+    # The rules may not take as in time what Canvas calls late.
+    kind = class_of(tmp_path, files, text, COSTS + "assume_in_time = true\n")
+    assert kind.accounts[1].total is None
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ["Ada Lovelace_17_assignsubmission_file_/a.py", "Bo Diddley_18_assignsubmission_file_/a.py"],
+        ["submission_17/a.py", "submission_18/a.py"],
+        ["week2-ada/a.py", "week2-bo/a.py"],
+    ],
+    ids=["moodle", "gradescope without its list", "github"],
+)  # fmt: skip
+def test_where_nobody_tells_a_time_the_marks_stay_open_and_one_sentence_says_why(
+    tmp_path, quick, names
+):
+    text = "name,id,github_username\nAda Lovelace,17,ada\nBo Diddley,18,bo\n"
+    decided = '[matches]\nsubmission_17 = "17"\nsubmission_18 = "18"\n'
+    rules = COSTS + (decided if "submission_17" in names[0] else "")
+    book = class_of(tmp_path, names, text, rules)
+    assert [a.total for a in book.accounts] == [None, None]
+    assert len(book.problems) == 1
+    assert book.problems[0].startswith("Nothing tells when 2 submissions came.")
+    assert "assume_in_time = true under [late]" in book.problems[0]
+    overview = (tmp_path / "out/index.html").read_text()
+    assert "The files do not tell when" in overview
+    kind = rules.replace("penalty = 10\n", "penalty = 10\nassume_in_time = true\n")
+    book = class_of(tmp_path, names, text, kind)
+    assert [a.total for a in book.accounts] == [8, 8]
+    assert book.problems == []
+    assert "2 submissions count as handed in by the deadline" in book.notes[0]
+
+
+def test_blackboard_and_the_rosters_tell_the_time(tmp_path, quick):
+    files = ["Work_ada_attempt_2026-10-14-12-00-00_a.py", "Work_bo_attempt_2026-10-12-12-00-00_a.py"]  # fmt: skip
+    book = class_of(tmp_path, files, "name,id\nAda,ada\nBo,bo\n", COSTS)
+    assert [a.total for a in book.accounts] == [6.4, 8]
+    assert book.accounts[0].handed_in == "2026-10-14 12:00+00:00"
+    assert (book.problems, book.notes) == ([], [])
+
+
+def test_a_name_of_no_submission_in_the_rules_is_one_sentence(tmp_path, quick):
+    rules = '[matches]\nbo = "ada"\n[submitted]\nadda = 2026-10-12T12:00:00\n'
+    book = book_of(tmp_path, ["ada"], "name,id\nAda,ada\n", rules)
+    assert book.problems == [
+        "The rules name the submission bo in [matches], but there is none of this name.",
+        "The rules name the submission adda in [submitted], but there is none of this name.",
+    ]
+
+
+def test_a_submission_that_is_given_to_a_student_later_was_not_graded_again(
+    tmp_path, quick
+):
+    """A mark by hand for a student without a submission; then [matches] finds one."""
+    text = "name,id\nAda,s1\nBo,s2\n"
+    book = book_of(tmp_path, ["one", "Bo"], text)
+    change(book, book.account("s1"), "2.1", 2, "oral exam", "Dr B.")
+    (tmp_path / "out" / RULES).write_text('[matches]\none = "s1"\n')
+    write_all(tmp_path / "out")
+    account = read_gradebook(tmp_path / "out", COURSE).account("s1")
+    assert account.problems == [
+        "Another submission counts for 2.1 than when its mark was changed by hand: look whether the change still holds."
+    ]
+    assert "4 (then –)" in (tmp_path / "out/marks.html").read_text()
+    change(book, account, "2.1", 2, "I looked", "Dr B.")
+    assert read_gradebook(tmp_path / "out", COURSE).account("s1").problems == []
+
+
+def test_an_exercise_that_does_not_count_or_was_not_graded_has_no_mark(tmp_path, quick):
+    book = book_of(tmp_path, ["ada"], rules='exercises = ["2.1", "2.3"]\n')
+    out, who = tmp_path / "out", book.account("ada")
+    said = {
+        "2.2": "2.2 does not count, because exercises in rules.toml does not name it: add it there first.",
+        "2.3": "2.3 was not graded for ada: grade it first, with robonav grade ... --exercise 2.3.",
+    }
+    for id, words in said.items():
+        with pytest.raises(ValueError, match=re.escape(words)):
+            change(book, who, id, 1, "oral", "Dr B.")
+        done = invoke("mark", out, "ada", id, "1", "--reason", "oral", "--by", "B")
+        assert str(done.exception) == words
+        with pytest.raises(ValueError, match=re.escape(words)):
+            objection.explain(book, who, COURSE.named(id))
+    # A mark that was changed by hand before the rules left the exercise out does not vanish without a word.
+    change(book, who, "2.1", 1, "oral", "Dr B.")
+    (out / RULES).write_text('exercises = ["2.2"]\n')
+    assert read_gradebook(out, COURSE).problems == [
+        "ada: the mark for 2.1 that was changed by hand does not count. "
+        "2.1 does not count, because exercises in rules.toml does not name it: add it there first."
+    ]
+
+
+def test_the_headlines_count_what_was_graded(tmp_path, quick):
+    book = book_of(tmp_path, ["ada", "bo"], rules='exercises = ["2.2"]\n')
+    overview = (tmp_path / "out/index.html").read_text()
+    assert "On average 8.0 of 8 points in the 2 exercises that anyone answered." in overview  # fmt: skip
+    assert "257" not in overview
+    path = exports.write_feedback(book, tmp_path / "zips")[0]
+    with zipfile.ZipFile(path) as archive:
+        page = archive.read("feedback.html").decode()
+    assert "<h1>ada: 4 of 4 points</h1>" in page
+    assert "2.1" not in page.split("<h1>")[1]
 
 
 def test_a_name_that_is_no_text_ends_no_class(tmp_path, quick):
