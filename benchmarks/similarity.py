@@ -9,6 +9,11 @@ exercises, which makes honest students more alike than chance would. Then two of
 those of another and disguise them, all of them or half. Each class is drawn independently. Every pair but that of a
 copy and its original is honest. The method is developed without the exercises in HELD_OUT, which tell how well it does
 on others. In other classes a ring of three to nine students hand in the same answers to all ten exercises.
+
+Classes of other sizes are drawn in the same way. In a class of thirty, two or three honest students have each of the
+twelve answers to an exercise, so that honest pairs are more alike than in smaller ones. In further classes half of ten
+exercises are copied, and a third person has three of the same answers; the pairs of the third person with the other two
+count neither as copies nor as honest.
 """
 
 from __future__ import annotations
@@ -42,6 +47,8 @@ EXERCISES = {
 }
 HELD_OUT = ("2.7", "3.1", "3.2", "3.5")
 RINGS = (3, 4, 6, 9)
+SIZES = (6, 8, 12, 30)
+THIRD = "third"  # a pair of a third person with one of two who copied
 DISGUISES = ("recommented", "renamed", "reordered", "translated")
 Functions = dict[str, dict[int, ast.Module]]
 
@@ -164,11 +171,17 @@ def known() -> dict[str, list[Fingerprint]]:
 
 
 def classes(
-    number: int, exercises: int, pool: Sequence[str] = (), copied: int = 0
+    number: int,
+    exercises: int,
+    pool: Sequence[str] = (),
+    copied: int = 0,
+    size: int = 12,
+    shared: int = 0,
 ) -> Iterator[tuple[list[Pair], dict[tuple[str, str], str]]]:
     """Yield the compared pairs of random classes, and which of them are copies, with the disguise.
 
-    Each class has so many exercises of the pool, of which ``copied`` are copied, or all of them.
+    Each class has so many students and exercises of the pool, of which ``copied`` are copied, or all of them. A third
+    person has ``shared`` of these answers too.
     """
     honest, translated, others = functions("honest"), functions("translated"), known()
     prints = {
@@ -179,8 +192,8 @@ def classes(
         rng = random.Random(seed)
         chosen = rng.sample(sorted(pool or EXERCISES), exercises)
         taken = chosen[: copied or exercises]
-        order = {id: _by_taste(honest[id], rng) for id in chosen}
-        people = rng.sample(range(12), 4)
+        order = {id: _by_taste(honest[id], rng, size) for id in chosen}
+        people = rng.sample(range(size), 4)
         hows = rng.sample(DISGUISES, 2)
         copies: dict[tuple[str, str], str] = {}
         own: dict[tuple[int, str], Fingerprint] = {}
@@ -189,8 +202,9 @@ def classes(
             for id in taken:
                 if how == "translated":  # an answer with a translation changes place
                     k = rng.choice(sorted(translated[id]))
-                    there = order[id].index(k)
-                    order[id][there], order[id][victim] = order[id][victim], k
+                    if k in order[id]:
+                        order[id][order[id].index(k)] = order[id][victim]
+                    order[id][victim] = k
                 source = translated if how == "translated" else honest
                 tree = source[id][order[id][victim]]
                 own[thief, id] = disguised(tree, how, rng)
@@ -198,11 +212,19 @@ def classes(
         for thief, victim, how in zip(people[:2], people[2:], hows, strict=True):
             for id in taken if how != "translated" else ():
                 own[thief, id] = disguised(honest[id][order[id][victim]], how, rng)
+        if shared:
+            thief, victim = people[0], people[2]
+            third = rng.choice([n for n in range(size) if n not in people])
+            for id in rng.sample(taken, shared):
+                tree = honest[id][order[id][victim]]
+                own[third, id] = disguised(tree, rng.choice(DISGUISES[:3]), rng)
+            for other in (thief, victim):
+                copies[f"student {third:02}", f"student {other:02}"] = THIRD
         answers = {
             f"student {n:02}": {
                 id: own.get((n, id), prints[id][order[id][n]]) for id in chosen
             }
-            for n in range(12)
+            for n in range(size)
         }
         yield pairs(answers, others), copies
 
@@ -226,8 +248,13 @@ def ringed(
         yield pairs(answers, others), {f"student {n:02}" for n in ring}
 
 
-def _by_taste(found: dict[int, ast.Module], rng: random.Random) -> list[int]:
-    """Return the numbers of the answers, those with fewer loops first, and in each half at random."""
+def _by_taste(
+    found: dict[int, ast.Module], rng: random.Random, size: int = 12
+) -> list[int]:
+    """Return the numbers of so many students' answers, those with fewer loops first, and in each half at random.
+
+    A class that is larger than the number of answers draws them again.
+    """
     loops = {
         number: sum(
             isinstance(node, ast.For | ast.While | ast.comprehension)
@@ -237,21 +264,37 @@ def _by_taste(found: dict[int, ast.Module], rng: random.Random) -> list[int]:
     }
     by_loops = sorted(found, key=lambda number: (loops[number], rng.random()))
     half = len(by_loops) // 2
-    return rng.sample(by_loops[:half], half) + rng.sample(by_loops[half:], half)
+    return _drawn(by_loops[:half], size // 2, rng) + _drawn(
+        by_loops[half:], size - size // 2, rng
+    )
+
+
+def _drawn(numbers: Sequence[int], many: int, rng: random.Random) -> list[int]:
+    """Return so many of the numbers in random order, each as often as any other."""
+    drawn = list[int]()
+    while len(drawn) < many:
+        drawn += rng.sample(numbers, len(numbers))
+    return drawn[:many]
 
 
 def measured(
-    number: int, exercises: int, pool: Sequence[str] = (), copied: int = 0
+    number: int,
+    exercises: int,
+    pool: Sequence[str] = (),
+    copied: int = 0,
+    size: int = 12,
+    shared: int = 0,
 ) -> dict[str, Any]:
     """Return the shares of copies and of honest pairs that are reported."""
     found, total = Counter[str](), Counter[str]()
-    for compared, copies in classes(number, exercises, pool, copied):
+    for compared, copies in classes(number, exercises, pool, copied, size, shared):
         for pair in compared:
             names = (pair.first, pair.second)
             kind = copies.get(names, copies.get(names[::-1], "honest"))
             total[kind] += 1
             found[kind] += pair.score >= THRESHOLD
     return {
+        "students": size,
         "exercises": exercises,
         "copied": copied or exercises,
         "reported": {k: round(found[k] / total[k], 4) for k in sorted(total)},
@@ -289,6 +332,10 @@ def main() -> None:
         "all copied": [measured(number, k) for k in (1, 2, 3, 4, 6, 8, 10)],
         "half copied": measured(number, 10, copied=5),
         "held out": measured(number, len(HELD_OUT), HELD_OUT),
+        "sizes": [measured(number, 6, size=size) for size in SIZES],
+        "a third person": [
+            measured(number, 10, copied=5, size=size, shared=3) for size in SIZES
+        ],
         "rings": [ring_measured(max(1, number // 4), size) for size in RINGS],
     }
     options.out.write_text(json.dumps(result, indent=1) + "\n", "utf-8")

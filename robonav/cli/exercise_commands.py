@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from robonav.grading.check import FailedCall
 
 exercises = typer.Typer(
     no_args_is_help=True, help="Make the students' exercises from the solutions."
@@ -127,7 +130,8 @@ def check(
     case: Annotated[
         Path | None,
         typer.Option(
-            help="Write the arguments of the first call that fails to this .npz file."
+            help="Write the arguments of the first call that fails to this .npz file. An open task has none, since it "
+            "counts what many calls achieve."
         ),
     ] = None,
 ) -> None:
@@ -147,13 +151,11 @@ def check(
         raise ValueError(
             f"case must be a file to write in a folder that exists, got {case}"
         )
-    grade, call = check_submission(course, chosen, submission, case)
+    grade, failed = check_submission(course, chosen, submission)
     _tell(course, grade, everything=len(chosen) == len(names))
-    if call:
-        _tell_case(case, call)
-    elif any(
-        entry["state"] in ("partial", "wrong", "error") for entry in grade["exercises"]
-    ):
+    if case is not None:
+        _write_case(course, grade, failed, case)
+    elif failed is not None:
         print("To get the first call that failed as a file, add: --case case.npz")
     if any(entry["state"] != "correct" for entry in grade["exercises"]):
         raise typer.Exit(1)
@@ -200,15 +202,40 @@ def _tell(course: Any, grade: dict[str, Any], *, everything: bool) -> None:
         )
 
 
-def _tell_case(path: Path | None, call: str) -> None:
-    """Say how to repeat the call that was written to a file."""
+def _write_case(
+    course: Any, grade: dict[str, Any], failed: FailedCall | None, path: Path
+) -> None:
+    """Write the call that failed to a file and say how to repeat it, or say why there is none."""
+    from robonav.grading.case_file import write_case
+
+    if failed is None:
+        print(f"{path} was not written: {_why_no_case(course, grade)}")
+        return
+    call = write_case(path, failed.observation, failed.names)
     print(
         f"\nThe first call that failed is in {path}. Repeat it with\n\n"
         f"    import numpy as np\n"
         f"    case = np.load({str(path)!r})\n"
-        f"    {call}\n\n"
-        'and compare with case["expected"].'
+        f"    {call}\n"
     )
+    if failed.observation.expected is not None:
+        print('and compare with case["expected"].')
+
+
+def _why_no_case(course: Any, grade: dict[str, Any]) -> str:
+    """Say why no single call failed."""
+    states = {entry["id"]: entry["state"] for entry in grade["exercises"]}
+    wrong = [id for id, state in states.items() if state not in ("correct", "missing")]
+    if not wrong:
+        begun = any(state == "correct" for state in states.values())
+        return "no call failed." if begun else "nothing was begun."
+    if tasks := [id for id in wrong if course.exercises[id].draws]:
+        return (
+            f"{' and '.join(tasks)} {'are open tasks' if len(tasks) > 1 else 'is an open task'}, which counts what "
+            "your function achieves in many calls together, so that no single call is wrong. Print what you want to "
+            "see from your function, or drive it in a notebook."
+        )
+    return "your function was not called, for the reason above."
 
 
 def _points(entry: dict[str, Any]) -> str:

@@ -1,7 +1,7 @@
 """Write a call of a student's function to a file that ``numpy.load`` reads without pickle.
 
-The file holds each argument by its name, the right answer, the student's answer, and the call as Python code that
-reads the arguments from the loaded file ``case``.
+The file holds each argument by its name, the right answer if there is a single one, the student's answer, and the call
+as Python code that reads the arguments from the loaded file ``case``.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ def write_case(path: Path, observation: Observation, names: Sequence[str]) -> st
         for name, argument in zip(names, arguments, strict=True)
     ]
     call = f"{observation.case.exercise.name}({', '.join(given)})"
-    _stored(arrays, "expected", observation.expected)
+    if observation.expected is not None:
+        _stored(arrays, "expected", observation.expected)
     _stored(arrays, "got", observation.got)
     arrays["call"] = np.array(call)
     with atomic_write(path) as file:

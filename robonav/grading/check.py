@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from . import frames
-from .case_file import write_case
 from .cases import PUBLIC, generator, outcome, parts_of
 from .course import Course, Exercise
-from .evidence import Evidence
+from .evidence import Evidence, Observation
 from .grade import Unaccepted, exercise_grade, grade
 from .reference import Reference, reference
 from .session import Answer, Calls, Session
@@ -40,9 +40,25 @@ def check(key: str, function: Callable[..., Any]) -> float:
     return float(result["points"] or 0)
 
 
+@dataclass(frozen=True, eq=False)
+class FailedCall:
+    """A call that the student's function answered wrongly.
+
+    Attributes
+    ----------
+    observation : Observation
+        The call and the answers.
+    names : sequence of str
+        The names of the arguments.
+    """
+
+    observation: Observation
+    names: Sequence[str]
+
+
 def check_submission(
-    course: Course, exercises: Sequence[Exercise], path: Path, case: Path | None = None
-) -> tuple[dict[str, Any], str]:
+    course: Course, exercises: Sequence[Exercise], path: Path
+) -> tuple[dict[str, Any], FailedCall | None]:
     """Grade exercises of a submission on the public cases. What the student's code prints is part of the feedback.
 
     Parameters
@@ -53,29 +69,28 @@ def check_submission(
         The exercises to check.
     path : Path
         A folder, notebook or zip file.
-    case : Path, optional
-        A file for the first call that was answered wrongly; see :mod:`robonav.grading.case_file`.
 
     Returns
     -------
     dict
         The grade.
-    str
-        The call in the file as Python code, or an empty string if none was written.
+    FailedCall or None
+        The first call that was answered wrongly. There is none where only open tasks failed, which measure what all
+        calls together achieve.
     """
-    loaded, known, call = load_submission(path), reference(course), ""
+    loaded, known = load_submission(path), reference(course)
     session = Session(loaded, "official", show=True, instead=["practice"])
-    entries = []
+    entries, failed = [], list[FailedCall]()
     try:
         for exercise in exercises:
             evidence = Evidence(known, course.parameters(exercise))
             entries.append(graded(course, exercise, session, known, evidence=evidence))
-            failure = evidence.first_failure()
-            if case is not None and failure is not None and not call:
-                call = write_case(case, failure, evidence.names)
+            if (failure := evidence.first_failure()) is not None:
+                failed.append(FailedCall(failure, evidence.names))
     finally:
         session.close()
-    return grade(entries, session.tier) | remarks(loaded, session), call
+    result = grade(entries, session.tier) | remarks(loaded, session)
+    return result, failed[0] if failed else None
 
 
 def remarks(loaded: Submission | Refused, session: Session) -> dict[str, Any]:

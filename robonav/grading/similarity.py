@@ -8,7 +8,9 @@ alike each of the two answers is to the others. The pair's rank among all pairs 
 it is by chance, and Fisher's method combines these probabilities over the exercises that both answered.
 
 A group of three or more who copied from one another would make its own likeness common. Such a ring therefore counts as
-one student: in how many of the class have something, and in the pairs that a pair is ranked among.
+one student: in how many of the class have something, and in the pairs that a pair is ranked among. In a small class a
+third person who has some of the same answers is enough to make them common. Where two are nearly equal in many
+exercises, a single third one is therefore left out of the exercises that all three share when these two are compared.
 """
 
 from __future__ import annotations
@@ -46,6 +48,11 @@ class Likeness:
     structure: float
     flow: float
     chances: tuple[float, float]
+
+    @property
+    def nearly_equal(self) -> bool:
+        """Whether the answers differ in little that counts."""
+        return max(self.structure, self.flow) >= NEARLY_EQUAL
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,8 +107,14 @@ def pairs(
     ['ada']
     """
     found = _compared(answers, known or {}, {})
-    if rings := _rings(found):
+    rings = _rings(found)
+    if rings:
         found = _compared(answers, known or {}, rings)
+    found |= {
+        names: _without_a_third(names, found, answers, known or {})
+        for names, likenesses in found.items()
+        if _linked(likenesses) and rings.keys().isdisjoint(names)
+    }
     scored = [
         Pair(first, second, _score(list(likenesses.values())), likenesses)
         for (first, second), likenesses in found.items()
@@ -126,22 +139,54 @@ def _compared(
 def _rings(
     found: Mapping[tuple[str, str], Mapping[str, Likeness]],
 ) -> dict[str, str]:
-    """Return a name of the ring of each student who is in one.
-
-    Two belong together if their answers are nearly equal in more exercises than chance explains, and in at least half
-    of those that both answered.
-    """
+    """Return a name of the ring of each student who is in one: students who are linked with one another."""
     rings: dict[str, set[str]] = {}
     for (first, second), likenesses in found.items():
-        equal = sum(
-            max(one.structure, one.flow) >= NEARLY_EQUAL for one in likenesses.values()
-        )
-        if equal > MOST_BY_CHANCE and 2 * equal >= len(likenesses):
+        if _linked(likenesses):
             both = rings.get(first, {first}) | rings.get(second, {second})
             rings.update(dict.fromkeys(both, both))
     return {
         name: min(ring) for name, ring in rings.items() if len(ring) >= SMALLEST_RING
     }
+
+
+def _linked(likenesses: Mapping[str, Likeness]) -> bool:
+    """Whether two belong together.
+
+    Their answers are nearly equal in more exercises than chance explains, and in at least half of those that both
+    answered.
+    """
+    equal = sum(one.nearly_equal for one in likenesses.values())
+    return equal > MOST_BY_CHANCE and 2 * equal >= len(likenesses)
+
+
+def _without_a_third(
+    names: tuple[str, str],
+    found: Mapping[tuple[str, str], Mapping[str, Likeness]],
+    answers: Mapping[str, Mapping[str, Fingerprint]],
+    known: Mapping[str, Sequence[Fingerprint]],
+) -> dict[str, Likeness]:
+    """Return how alike two are in each exercise, without the one other student whose answer is nearly equal too.
+
+    If several others have such an answer, it is common, and none of them is left out.
+    """
+    alike = dict(found[names])
+    for id, likeness in found[names].items():
+        same = {
+            name
+            for pair, others in found.items()
+            if not set(names).isdisjoint(pair) and id in others
+            if others[id].nearly_equal
+            for name in pair
+        } - set(names)
+        if likeness.nearly_equal and len(same) == 1:
+            own = {
+                name: prints[id]
+                for name, prints in answers.items()
+                if id in prints and name not in same
+            }
+            alike[id] = dict(_likenesses(own, known.get(id, ()), {}))[names]
+    return alike
 
 
 def _score(likenesses: Sequence[Likeness]) -> float:

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from robonav.cli import app
 from robonav.grading.cases import outcome
 from robonav.grading.check import InProcessCalls, check_submission, graded
 from robonav.grading.course import Course
@@ -154,6 +156,43 @@ def test_a_chapter_is_checked_at_once(tmp_path):
         *(exercise.id for exercise in COURSE.selected("ch5")),
         "Total:",
     ]
+
+
+@pytest.mark.sandbox
+def test_an_open_task_has_no_call_that_failed_and_says_so(tmp_path):
+    """Answers that are allowed and achieve nothing, a right answer, and one that raises."""
+    submitted(
+        tmp_path,
+        "escape",
+        "def escape(ranges, bearings, distances, memory):\n    return [0] * len(ranges), memory\n",
+    )
+    path = tmp_path / "case.npz"
+    command = ["check", "6.6", "--submission", str(tmp_path)]
+    plain = CliRunner().invoke(app, command)
+    assert "got 0" in plain.output or "arrivals in 100 worlds" in plain.output
+    assert "--case" not in plain.output
+    done = CliRunner().invoke(app, [*command, "--case", str(path)])
+    assert done.exit_code == 1
+    assert "case.npz was not written: 6.6 is an open task" in done.output
+    assert not path.exists()
+    # With an exercise whose call fails, there is a file.
+    submitted(tmp_path, "improve", "def improve(q, policy, tolerance):\n    return policy\n")  # fmt: skip
+    done = CliRunner().invoke(app, ["check", "2.2", *command[1:], "--case", str(path)])
+    assert "The first call that failed is in" in done.output
+    assert "expected" in np.load(path)
+    # An exception in an open task is a call that failed, without an expected answer.
+    submitted(tmp_path, "escape", "def escape(ranges, bearings, distances, memory):\n    return 1 / 0\n")  # fmt: skip
+    done = CliRunner().invoke(app, [*command, "--case", str(path)])
+    assert "escape(" in str(np.load(path)["call"])
+    assert "expected" not in np.load(path)
+    assert 'compare with case["expected"]' not in done.output
+
+
+def test_nothing_that_failed_is_said(tmp_path):
+    path = tmp_path / "case.npz"
+    command = ["check", "2.2", "--submission", str(tmp_path), "--case", str(path)]
+    done = CliRunner().invoke(app, command)
+    assert "case.npz was not written: nothing was begun." in done.output
 
 
 def test_a_file_that_cannot_be_written_is_named(tmp_path):

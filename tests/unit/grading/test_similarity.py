@@ -64,6 +64,15 @@ def test_a_ring_does_not_hide_itself(size, disguises):
         assert all(names <= ring for names in reported)
 
 
+def test_a_third_person_does_not_hide_a_copy_in_a_small_class():
+    """Half of ten exercises are copied, and a third person has four of the same answers."""
+    for size in (6, 8):
+        found = BENCHMARK.measured(5, 10, copied=5, size=size, shared=4)["reported"]
+        easy = [how for how in BENCHMARK.DISGUISES[:3] if how in found]
+        assert [found[how] for how in easy] == [1.0] * len(easy), (size, found)
+        assert found["honest"] <= 0.01
+
+
 def test_equal_answers_to_few_exercises_make_no_ring():
     easy = one("def f(a):\n    return a.max(axis=1) + 5")
     class_of = {
