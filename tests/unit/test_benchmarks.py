@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import importlib
+import json
 import runpy
 import subprocess
 import sys
@@ -53,6 +54,7 @@ def test_the_page_runs_every_benchmark():
         "question_banks.py",  # it needs two programs of others
         "timing.py",  # others time with it
         "similarity.py",  # its numbers stand on the page for instructors
+        "variants.py",  # likewise
     }
     assert names | others == {path.name for path in SCRIPTS}
 
@@ -81,3 +83,15 @@ def test_help_is_given_without_a_benchmark():
         check=True,
     )
     assert "--peers" in asked.stdout
+
+
+def test_the_instructors_page_says_how_long_a_variant_takes():
+    result = json.loads((FOLDER / "variants.json").read_text("utf-8"))
+    text = (FOLDER.parent / "book/instructors.md").read_text("utf-8")
+    assert (
+        f"takes {result['processor seconds']} seconds of processor time for each student "
+        f"and all {result['exercises']} exercises (`benchmarks/variants.py`, "
+        f"the median of {result['students']} students"
+    ) in text
+    manifest = (FOLDER.parent / "tests/exercises/manifest.toml").read_text("utf-8")
+    assert result["exercises"] == manifest.count("[[exercise]]")
