@@ -33,7 +33,7 @@ robots = gymnasium.make_vec("robonav/Navigation-v0", 2, vectorization_mode="vect
 robots.reset(seed=0)
 robots.step([0, 0])
 endef
-EXTRAS := book,lab,grading,exams,cluster,tests,benchmarks,formats,clients,team
+EXTRAS := book,lab,grading,exams,cluster,tests,benchmarks,formats,clients,team,body
 
 .PHONY: help open install book pdf slides check test test-all lab lock clean
 help:

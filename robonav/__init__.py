@@ -2,9 +2,9 @@
 
 Each chapter has its subpackage: ``mdp`` (chapter 2), ``robot`` (section 2.5), ``lfd`` (3, imitation learning),
 ``nnql`` (4, reinforcement learning), ``nirl`` (5, inverse reinforcement learning), ``planners`` (6, which learn
-nothing), ``deep`` (6, deep reinforcement learning), ``memory`` (6, policies that remember) and ``sensing`` (6, richer
-sensors). Chapters 3 to 6 use ``networks``. Importing this package only registers the Gymnasium environments.
-Subpackages load when they are first used.
+nothing), ``deep`` (6, deep reinforcement learning), ``memory`` (6, policies that remember), ``sensing`` (6, richer
+sensors) and ``body`` (6, a body in MuJoCo). Chapters 3 to 6 use ``networks``. Importing this package only registers the
+Gymnasium environments. Subpackages load when they are first used.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from ._version import __version__ as __version__
 
 _SUBPACKAGES = (
     "benchmark",
+    "body",
     "deep",
     "experiments",
     "grading",
@@ -36,6 +37,7 @@ _SUBPACKAGES = (
 
 if TYPE_CHECKING:
     from robonav import (  # noqa: F401
+        body,
         deep,
         experiments,
         grading,

@@ -22,6 +22,7 @@ from robonav.robot import (
     REFLEX,
     Encoder,
     Outcome,
+    Simulator,
     Transition,
     follow_policy,
     run_episodes,
@@ -187,7 +188,7 @@ def train_team(
 
 
 def act_together(
-    simulator: TeamSimulator,
+    simulator: Simulator,
     policy: NetworkPolicy,
     reflex: ReflexRule | None,
     rng: np.random.Generator,

@@ -353,8 +353,51 @@ def navigate(
         )
     rng = check_generator("seed", seed)
     simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
-    select_actions = selector_of(policy, simulator, rng)
-    n, ended = len(worlds), 0
+    return drive(
+        policy, simulator, record_paths, reflex=reflex, seed=rng, progress=progress
+    )
+
+
+def drive(
+    policy: Policy | PolicyWithMemory,
+    simulator: Simulator,
+    record_paths: bool = False,
+    *,
+    reflex: ReflexRule | None = REFLEX,
+    seed: int | np.random.Generator = 0,
+    progress: Progress | None = None,
+) -> Navigation:
+    """Let a policy steer the robots of a simulator until their episodes have ended.
+
+    Parameters
+    ----------
+    policy : callable or PolicyWithMemory
+        As in :func:`navigate`.
+    simulator : Simulator
+        N robots at their starts, for instance with bodies, :class:`robonav.body.BodySimulator`.
+    record_paths : bool
+        Whether to keep the poses.
+    reflex : callable, optional
+        What a robot does before the policy is asked; None leaves every step to the policy.
+    seed : int or numpy.random.Generator
+        Seed of the generator that the policy is handed.
+    progress : callable, optional
+        ``progress(done, total)``, called each second with the number of episodes that have ended.
+
+    Returns
+    -------
+    Navigation
+        How the episodes ended.
+
+    Examples
+    --------
+    >>> from robonav.robot import Simulator, drive, random_worlds, turn_to_clearer_side
+    >>> simulator = Simulator(random_worlds(100, obstacles=10, seed=1), max_steps=500)
+    >>> int(drive(turn_to_clearer_side, simulator).success.sum())
+    99
+    """
+    select_actions = selector_of(policy, simulator, check_generator("seed", seed))
+    n, ended = len(simulator), 0
     track: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
     for second in run_episodes(simulator, select_actions, reflex=reflex):
         if record_paths:

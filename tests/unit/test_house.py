@@ -38,6 +38,7 @@ CHAPTERS = {
     "deep",
     "memory",
     "sensing",
+    "body",
 }
 ALLOWED = {
     "mdp": set(),
@@ -50,6 +51,7 @@ ALLOWED = {
     "deep": {"mdp", "robot", "networks", "lfd", "nnql"},
     "memory": {"robot", "networks", "lfd"},
     "sensing": {"robot", "networks", "lfd"},
+    "body": {"robot", "networks", "lfd", "nnql", "deep"},
     "experiments": CHAPTERS | {"benchmark"},
     "benchmark": CHAPTERS,
     "plots": CHAPTERS | {"experiments", "benchmark"},

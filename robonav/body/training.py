@@ -1,0 +1,159 @@
+"""PPO in randomised simulators: each update has a speed, slips and errors of its own (domain randomisation)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from robonav.deep.gradient_ascent import adam, ascend
+from robonav.deep.networks import random_actor_critic
+from robonav.deep.ppo import batch_of, minibatches, objective
+from robonav.deep.team import act_together
+from robonav.networks.policy import NetworkPolicy
+from robonav.networks.torch_lbfgs import one_thread
+from robonav.networks.torch_module import as_module, as_network
+from robonav.nnql.task import ACTIONS, EXPLORING, REPLAYING, WORLDS, make_rng
+from robonav.progress import Progress
+from robonav.robot import (
+    REFLEX,
+    Encoder,
+    ReflexRule,
+    Simulator,
+    neighbour_slip,
+    random_worlds,
+)
+from robonav.validation import check_integer
+
+Drawn = Callable[[np.random.Generator], Simulator]
+"""``draw(rng)`` returns a simulator whose robots are at their start."""
+
+
+@one_thread()
+def train_in(
+    draw: Drawn,
+    updates: int = 60,
+    *,
+    reflex: ReflexRule | None = REFLEX,
+    hidden: tuple[int, ...] = (32,),
+    epochs: int = 4,
+    batches: int = 8,
+    seed: int,
+    progress: Progress | None = None,
+) -> NetworkPolicy:
+    """Train a policy by PPO, with a simulator drawn anew for each update.
+
+    All its robots act until their episodes have ended. The rest is :func:`robonav.deep.ppo`, and has its defaults.
+
+    Parameters
+    ----------
+    draw : callable
+        ``draw(rng)`` returns a simulator; :func:`ideal` and :func:`randomised` make such functions.
+    updates : int
+        How often the robots act, and the networks learn from it.
+    reflex : callable, optional
+        What a robot does before the policy is asked.
+    hidden : tuple of int
+        Units of each hidden layer.
+    epochs : int
+        How often an update goes through the steps of all robots.
+    batches : int
+        Minibatches into which an epoch divides the steps.
+    seed : int
+        Of the weights, the simulators, the actions and the minibatches.
+    progress : callable, optional
+        Called as ``progress(updates done, updates)``.
+
+    Returns
+    -------
+    NetworkPolicy
+        It draws its actions as it did in training.
+
+    Examples
+    --------
+    >>> from robonav.body import randomised, train_in
+    >>> train_in(randomised(robots=2, obstacles=5), updates=1, seed=0).network.sizes
+    (12, 32, 5)
+    """
+    check_integer("updates", updates, at_least=1)
+    encoder = Encoder()
+    start = random_actor_critic(encoder.size, hidden, ACTIONS, seed)
+    policy, value = as_module(start.policy), as_module(start.value)
+    optimiser = adam(0.01, policy, value)
+    for update in range(updates):
+        simulator = draw(make_rng(seed, WORLDS, update))  # the only difference
+        acting = NetworkPolicy(as_network(policy), encoder, temperature=1.0)
+        rng = make_rng(seed, EXPLORING, update)
+        rollouts = act_together(simulator, acting, reflex, rng)
+        batch = batch_of(rollouts, policy, value, discount=0.99, trace_decay=0.95)
+        rng = make_rng(seed, REPLAYING, update)
+        for rows in minibatches(len(batch), epochs, batches, rng):
+            ascend(optimiser, objective(policy, value, batch[rows], 0.2, 0.5, 0.03))
+        if progress is not None:
+            progress(update + 1, updates)
+    return NetworkPolicy(as_network(policy), encoder, temperature=1.0)
+
+
+def ideal(robots: int = 32, obstacles: int = 20) -> Drawn:
+    """Return a function that draws simulators of section 2.5, in which every action does what it says.
+
+    Parameters
+    ----------
+    robots : int
+        How many act for an update, each in a world of its own.
+    obstacles : int
+        Obstacles of a world.
+
+    Returns
+    -------
+    callable
+        For :func:`train_in`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.body import ideal
+    >>> len(ideal(robots=3)(np.random.default_rng(0)))
+    3
+    """
+    return lambda rng: Simulator(
+        random_worlds(robots, obstacles, seed=rng), max_steps=300
+    )
+
+
+def randomised(robots: int = 32, obstacles: int = 20) -> Drawn:
+    """Return a function that draws simulators of section 2.5 with a speed, slips and errors of the ranges at random.
+
+    The speed is 1.5 to 3 m/s, up to half of the actions slip to a neighbour, and ranges are off by up to 0.5 m. None of
+    the three is what a body does. Together they make a policy that does not rely on what one step brings.
+
+    Parameters
+    ----------
+    robots : int
+        How many act for an update, each in a world of its own.
+    obstacles : int
+        Obstacles of a world.
+
+    Returns
+    -------
+    callable
+        For :func:`train_in`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.body import randomised
+    >>> 1.5 < randomised(robots=3)(np.random.default_rng(0)).speed < 3
+    True
+    """
+
+    def draw(rng: np.random.Generator) -> Simulator:
+        return Simulator(
+            random_worlds(robots, obstacles, seed=rng),
+            rng.uniform(1.5, 3.0),
+            slip=neighbour_slip(rng.uniform(0.0, 0.5)),
+            noise=rng.uniform(0.0, 0.5),
+            max_steps=300,
+        )
+
+    return draw
