@@ -3,7 +3,7 @@
 # Check it with: robonav check 2.6
 """Monte Carlo prediction averages the returns after visits to a state. First-visit
 prediction uses only the first visit in each episode. These returns come from different
-episodes, so they are independent, and their mean is unbiased. Write first-visit
+episodes, and each has the right mean, so their mean is unbiased. Write first-visit
 prediction from recorded episodes. Also return for each state the number of episodes
 that visited it. The value of a state that no episode visited is zero.
 """

@@ -9,7 +9,7 @@ reward near the start and a large one far away. Any method is fine: Q-learning t
 replays the recorded steps, SARSA, an estimated model as in exercise 2.8. What counts
 besides the update is how the robot explores: without chance in its actions, all
 episodes of a round may be the same. Each part computes the return of your last answers
-in four new worlds, on a scale from 0 % for a robot that goes anywhere to 100 % for the
+in four new worlds, on a scale from 0 % for a robot that acts at random to 100 % for the
 best policy. All calls together may take 30 seconds.
 """
 
