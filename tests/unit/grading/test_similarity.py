@@ -100,6 +100,16 @@ def test_the_page_says_what_was_measured():
         assert share["honest"] <= 1
         if row["exercises"] >= 4 and row["copied"] == row["exercises"]:
             assert min(easy, share["translated"]) >= 95
+    for row, beside in zip(result["sizes"], result["a third person"], strict=True):
+        cells = [str(row["students"])]
+        for one in (row, beside):
+            share = {kind: 100 * value for kind, value in one["reported"].items()}
+            easy = min(share[how] for how in BENCHMARK.DISGUISES if how != "translated")
+            honest = f"{share['honest']:.2f} % of {one['pairs']['honest']:,}"
+            cells += [f"{easy:.1f} %", f"{share['translated']:.1f} %", honest]
+            assert easy >= 95
+            assert share["honest"] <= 1 or row["students"] == 30
+        assert f"| {' | '.join(cells)} |" in page
     assert f"{result['classes']} classes" in page
     for row in result["rings"]:
         share = {kind: 100 * value for kind, value in row["reported"].items()}
