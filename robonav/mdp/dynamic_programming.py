@@ -71,7 +71,6 @@ from .solutions import (
 from .undiscounted import shortest_path_policy
 
 Floats = NDArray[np.float64]
-Actions = NDArray[np.intp]
 
 
 @planner(start=first_values, limit=FiniteMDP.residual_for, twin="_fast_planners")
@@ -199,8 +198,8 @@ def policy_iteration(
         policy = np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
     for iteration in range(1, max_iterations + 1):  # 3 and 4: repeat
         # 5 to 8, evaluate: solve V = r_pi + gamma T_pi V  Eq. (2.5)
-        # (mdp.rows has T(s, a, .) in its row s * n_actions + a)
-        transitions = mdp.rows[states * mdp.n_actions + policy]  # T_pi (S, S)
+        rows = [sp.csr_array(mdp.transitions[a][[s]]) for s, a in enumerate(policy)]
+        transitions = sp.vstack(rows, format="csc")  # T_pi (S, S): T(s, pi(s), .)
         rewards = mdp.rewards[states, policy]  # r_pi (S,): r(s, pi(s))
         values = spsolve(identity - gamma * transitions, rewards)  # V_pi (S,)
 
@@ -208,14 +207,18 @@ def policy_iteration(
         expected = np.stack([matrix @ values for matrix in mdp.transitions], axis=1)
         q = mdp.rewards + gamma * expected  # Q_pi (S, A)  Eq. (2.15)
         gains = q - q[states, policy][:, None]  # Q_pi(s, a) - V_pi(s)
-        # Of two equal actions, rounding makes one look better, which is not a gain.
-        rounding = 4 * np.spacing(abs(values).max()) / (1 - gamma)  # for gamma < 1
-        better = gains.max(axis=1) > max(tolerance * (1 - gamma), rounding)
-        policy = np.where(better, gains.argmax(axis=1), policy)  # 10  Eq. (2.25)
+        better = gains.max(axis=1) > least_difference(values, gamma, tolerance)
+        policy = np.where(better, q.argmax(axis=1), policy)  # 10  Eq. (2.25)
         converged = not better.any()
-        if converged:  # 11
+        if converged:  # 11: V_pi solves Bellman's optimality equation
             break
     return Solution(values, policy, iteration, gains.max(), converged)
+
+
+def least_difference(values: Floats, gamma: float, tolerance: float) -> float:
+    """Return the gain of an action that counts. Of two equal actions, rounding makes one look better by less."""
+    rounding = 4 * np.spacing(abs(values).max()) / (1 - gamma)
+    return max(tolerance * (1 - gamma), rounding)
 
 
 @planner(start=first_values_below, limit=evaluation_residual, twin="_fast_planners")
@@ -235,7 +238,7 @@ def modified_policy_iteration(
     Each iteration improves the policy once and evaluates it by ``sweeps`` sweeps (0: value iteration; many: policy
     iteration). Stops when the changes of the improvement differ by at most ``tolerance * (1 - discount) / discount``
     between states. The greedy policy then loses at most ``tolerance`` (Puterman 2005, section 6.6). The optimal values
-    lie between two bounds, of which the function returns the middle:
+    lie between two bounds, with V after the improvement, of which the function returns the middle:
 
         V + gamma / (1 - gamma) * min change <= V* <= V + gamma / (1 - gamma) * max change.
 
