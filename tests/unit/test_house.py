@@ -7,7 +7,8 @@ import graphlib
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -87,28 +88,39 @@ def room(path: Path) -> str:
 def imports(path: Path, *, typing: bool = True) -> Iterator[str]:
     """The dotted names that a file imports, anywhere in it; without ``typing`` not those under TYPE_CHECKING."""
     package = path.relative_to(PACKAGE.parent).parts[:-1]
+    for name, only_typing in import_statements(path.read_text("utf-8"), package):
+        if typing or not only_typing:
+            yield name
 
-    def visit(node: ast.AST) -> Iterator[str]:
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            start = (
-                ".".join(package[: len(package) - node.level + 1]) if node.level else ""
-            )
-            origin = ".".join(filter(None, (start, node.module)))
-            yield from (f"{origin}.{alias.name}" for alias in node.names)
-        elif (
-            isinstance(node, ast.If)
-            and not typing
-            and ast.unparse(node.test).endswith("TYPE_CHECKING")
-        ):
-            for child in node.orelse:
-                yield from visit(child)
-        else:
-            for child in ast.iter_child_nodes(node):
-                yield from visit(child)
 
-    return visit(ast.parse(path.read_text("utf-8")))
+@cache
+def import_statements(
+    text: str, package: tuple[str, ...]
+) -> tuple[tuple[str, bool], ...]:
+    """The names that a file of a package imports, and whether they stand under TYPE_CHECKING.
+
+    Imports are statements, so expressions are not searched. The same text is parsed once.
+    """
+
+    def visit(
+        statements: Iterable[ast.AST], only_typing: bool
+    ) -> Iterator[tuple[str, bool]]:
+        for node in statements:
+            if isinstance(node, ast.Import):
+                yield from ((alias.name, only_typing) for alias in node.names)
+            elif isinstance(node, ast.ImportFrom):
+                start = package[: len(package) - node.level + 1] if node.level else ()
+                origin = ".".join(filter(None, (*start, node.module)))
+                yield from ((f"{origin}.{own.name}", only_typing) for own in node.names)
+            else:
+                checks = isinstance(node, ast.If) and ast.unparse(node.test).endswith(
+                    "TYPE_CHECKING"
+                )
+                for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+                    under = checks and part == "body"
+                    yield from visit(getattr(node, part, ()), only_typing or under)
+
+    return tuple(visit(ast.parse(text).body, False))
 
 
 def imported_rooms(path: Path) -> Iterator[str]:
@@ -139,6 +151,7 @@ def imported_files(path: Path) -> set[Path]:
 SOURCES = [
     path for path in sorted(PACKAGE.rglob("*.py")) if path != PACKAGE / "__init__.py"
 ]
+ROOMS = {room(source) for source in SOURCES}
 
 
 @pytest.mark.parametrize(
@@ -147,8 +160,7 @@ SOURCES = [
 def test_imports_point_one_way(path: Path) -> None:
     here = room(path)
     allowed = {here} | BASE | (set() if here in BASE else ALLOWED[here])
-    rooms = {room(source) for source in SOURCES}
-    assert [name for name in imported_rooms(path) if name in rooms - allowed] == []
+    assert [name for name in imported_rooms(path) if name in ROOMS - allowed] == []
 
 
 def test_every_import_form_is_seen(
