@@ -262,7 +262,7 @@ class Picture:
     >>> import numpy as np
     >>> from robonav.robot import Simulator, make_world
     >>> from robonav.sensing import Picture
-    >>> world = make_world(circles=[(50, 58, 2)], start=(50, 50), target=(50, 90))
+    >>> world = make_world(circles=[(50, 58, 2.5)], start=(50, 50), target=(50, 90))
     >>> Picture(8)(Simulator(world), np.array([0]))[0, :3].astype(int)
     array([[0, 0, 0, 1, 1, 0, 0, 0],
            [0, 0, 0, 1, 1, 0, 0, 0],

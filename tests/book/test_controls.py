@@ -126,6 +126,7 @@ def test_controls_are_large_enough_and_each_does_something(
     visit: Visit, site: Path, page: str
 ) -> None:
     visit.page.set_viewport_size(PHONE)
+    visit.leave_formulas()
     visit.open(f"{site.as_uri()}/book/{page}.html")
     for lab in visit.page.locator(".robonav:not(.explorable)").all():
         lab.evaluate(OPENED)

@@ -137,6 +137,7 @@ def test_opening_the_answer_judges_the_guess(
 ) -> None:
     visit.page.set_viewport_size(PHONE)
     (page,) = [page for page in ROOT.glob("book/*.md") if asked_on(page, name=name)]
+    visit.leave_formulas()
     visit.open(f"{site.as_uri()}/book/{page.stem}.html")
     asked = EXPLORABLES[name]
     widget = visit.page.locator(".explorable", has_text=asked.question)

@@ -175,6 +175,7 @@ def test_pictures_say_what_they_show(lab):
 
 
 def test_the_best_with_time_short_is_pythons(visit, site):
+    visit.leave_formulas()
     visit.open(f"{site.as_uri()}/book/decision-processes.html")
     lab = visit.page.locator(".grid-lab")
     lab.get_by_label("slip", exact=True).select_option("0.2")
@@ -191,6 +192,7 @@ def test_the_best_with_time_short_is_pythons(visit, site):
 
 
 def test_learners_and_their_walks_are_pythons(visit, site):
+    visit.leave_formulas()
     visit.open(f"{site.as_uri()}/book/model-free-learning.html")
     lab = visit.page.locator(".grid-lab")
     lab.get_by_label("exploring ε").select_option("0.2")

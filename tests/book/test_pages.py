@@ -112,6 +112,7 @@ def test_site_is_light(site: Path) -> None:
 def test_trainings_that_are_measured_are_on_their_pages(
     visit: Visit, http: str, training: Training
 ) -> None:
+    visit.leave_formulas()
     visit.open(f"{http}/{training.page}.html")
     assert training.button(visit.page).is_enabled()
 

@@ -44,6 +44,7 @@ def test_each_answer_says_whether_it_is_right_and_why(
     visit: Visit, http: str, page: str
 ) -> None:
     visit.page.set_viewport_size(PHONE)
+    visit.leave_formulas()
     visit.open(f"{http}/book/{page}.html")
     questions = visit.page.locator(".quiz")
     expect(questions).not_to_have_count(0)

@@ -117,6 +117,7 @@ def test_with_a_kernel_a_target_is_searched_for(visit, http):
 @pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
 def test_the_page_on_a_star_searches_as_python_does(visit, site, size):
     visit.page.set_viewport_size(size)
+    visit.leave_formulas()
     visit.open(f"{site.as_uri()}/book/a-star.html")
     lab = visit.page.locator(".search-lab")
     maps = {

@@ -28,6 +28,7 @@ def view(request: pytest.FixtureRequest, visit: Visit) -> Iterator[Visit]:
 
 def opened(view: Visit, site: Path, page: str, lab: str) -> Locator:
     """The lab of a page whose reader has trained nothing yet."""
+    view.leave_formulas()
     view.open(f"{site.as_uri()}/book/{page}.html")
     empty_storage(view.page)
     return view.page.locator(lab)
