@@ -8,8 +8,6 @@ import numpy as np
 import pytest
 from numbers_in_texts import drawn, numbers
 
-from robonav import mdp
-
 
 def test_discounted_return() -> None:
     for question in drawn("discounted-return"):
@@ -221,12 +219,3 @@ def test_value_from_vectors() -> None:
         pairs = zip(entries[::2], entries[1::2], strict=True)
         best = max(belief * a + rest * b for a, b in pairs)
         assert question.asked.answer == pytest.approx(best)
-
-
-def test_weights_of_tilings_are_those_of_the_package() -> None:
-    for question in drawn("weights-of-tilings"):
-        tilings, side, _, actions = (int(number) for number in numbers(question.text))
-        tiles = mdp.Tiles((0, 0), (1, 1), (side, side), tilings, actions)
-        ((weights, changed),) = question.asked.answer
-        assert weights == tiles((0.3, 0.7)).shape[1]
-        assert changed == (tiles((0.3, 0.7))[0] > 0).sum()
