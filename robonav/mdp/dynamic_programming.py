@@ -51,10 +51,11 @@ which is faster, keeps the history if ``record`` is true, and also plans without
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.linalg import spsolve
 
 from robonav.validation import ArrayArgument
 
@@ -68,7 +69,6 @@ from .solutions import (
     first_values_below,
     greedy_policy,
 )
-from .undiscounted import shortest_path_policy
 
 Floats = NDArray[np.float64]
 
@@ -151,7 +151,7 @@ def policy_iteration(
     discount) steps adds up to ``tolerance``. Without discount there is no bound on the loss, and only the
     floating-point error counts.
 
-    The twin that runs does the same with three additions: it solves large systems by a Krylov method, it bounds the
+    The twin that runs does the same with three additions: it keeps sparse matrices sparse, it bounds the
     floating-point error from the residual of the equations (``rounding.py``), and it plans without discount.
 
     Parameters
@@ -191,28 +191,28 @@ def policy_iteration(
     (3, array([1, 1, 1, 0, 0, 0, 0, 0, 3, 0, 3]))
     """
     gamma, states = mdp.discount, np.arange(mdp.n_states)
-    identity = sp.eye_array(mdp.n_states, format="csc")
-    policy = start
-    if policy is None:  # 1 and 2: towards a terminal state, else the largest reward
-        steps, shortest = shortest_path_policy(mdp, mdp.terminal)
-        policy = np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
+    transitions = np.stack([dense(matrix) for matrix in mdp.transitions])  # (A, S, S)
+    policy = first_policy(mdp, start)  # 1 and 2: towards the terminal states
     for iteration in range(1, max_iterations + 1):  # 3 and 4: repeat
         # 5 to 8, evaluate: solve V = r_pi + gamma T_pi V  Eq. (2.5)
-        rows = [sp.csr_array(mdp.transitions[a][[s]]) for s, a in enumerate(policy)]
-        transitions = sp.vstack(rows, format="csc")  # T_pi (S, S): T(s, pi(s), .)
+        of_policy = transitions[policy, states]  # T_pi (S, S): T(s, pi(s), .)
         rewards = mdp.rewards[states, policy]  # r_pi (S,): r(s, pi(s))
-        values = spsolve(identity - gamma * transitions, rewards)  # V_pi (S,)
+        values = np.linalg.solve(np.eye(len(states)) - gamma * of_policy, rewards)
 
         # 9, improve: the best action of each state, where it gains something
-        expected = np.stack([matrix @ values for matrix in mdp.transitions], axis=1)
-        q = mdp.rewards + gamma * expected  # Q_pi (S, A)  Eq. (2.15)
-        gains = q - q[states, policy][:, None]  # Q_pi(s, a) - V_pi(s)
+        q = mdp.rewards + gamma * (transitions @ values).T  # Q_pi (S, A)  Eq. (2.15)
+        gains = q - values[:, None]  # Q_pi(s, a) - V_pi(s)
         better = gains.max(axis=1) > least_difference(values, gamma, tolerance)
         policy = np.where(better, q.argmax(axis=1), policy)  # 10  Eq. (2.25)
         converged = not better.any()
-        if converged:  # 11: V_pi solves Bellman's optimality equation
+        if converged:  # 11: no action is better, so V_pi is optimal
             break
     return Solution(values, policy, iteration, gains.max(), converged)
+
+
+def dense(matrix: Any) -> Floats:
+    """Return a matrix of transitions, which may be sparse, as an array."""
+    return matrix.toarray() if sp.issparse(matrix) else np.asarray(matrix)
 
 
 def least_difference(values: Floats, gamma: float, tolerance: float) -> float:

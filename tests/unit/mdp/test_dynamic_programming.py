@@ -600,9 +600,13 @@ def test_recorded_policy_iteration_is_what_the_page_shows(seed):
         start = first_policy(mdp, None)
         recorded = policy_iteration(mdp, 1e-9, record=True)
         readable = algorithm(mdp, 1e-9)
-        for name in ("values", "policy", "iterations", "residual", "converged"):
+        for name in ("policy", "iterations", "converged"):
             np.testing.assert_array_equal(
                 getattr(recorded, name), getattr(readable, name)
+            )
+        for name in ("values", "residual"):  # another solver rounds otherwise
+            np.testing.assert_allclose(
+                getattr(recorded, name), getattr(readable, name), rtol=0, atol=1e-12
             )
         np.testing.assert_array_equal(recorded.policies[0], start)
         assert len(recorded.policies) == len(recorded.history) == readable.iterations
@@ -610,7 +614,9 @@ def test_recorded_policy_iteration_is_what_the_page_shows(seed):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", ConvergenceWarning)
                 stopped = algorithm(mdp, 1e-9, max_iterations=count)
-            np.testing.assert_array_equal(recorded.history[count - 1], stopped.values)
+            np.testing.assert_allclose(
+                recorded.history[count - 1], stopped.values, rtol=0, atol=1e-12
+            )
             np.testing.assert_array_equal(recorded.policies[count], stopped.policy)
 
 
