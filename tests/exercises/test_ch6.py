@@ -369,3 +369,116 @@ def test_escape_among_obstacles(answer, rng):
     from robonav.robot import random_worlds
 
     escapes(answer, random_worlds(100, 10, seed=rng), 85)
+
+
+def outputs_of(layers, inputs):
+    """The outputs of a network for some inputs."""
+    hidden = np.tanh(layers[0][:, 0] + inputs @ layers[0][:, 1:].T)
+    return layers[1][:, 0] + hidden @ layers[1][:, 1:].T
+
+
+SHAPES = [(16, 13), (5, 17), (16, 13), (1, 17)]
+
+
+class Actor:
+    """A robot whose sensors and motors are wired at random, in signs, too, with a policy and a critic."""
+
+    def __init__(self, rng):
+        from robonav.robot import Encoder
+
+        self.rng, self.encoder = rng, Encoder()
+        self.sensors, self.motors = rng.permutation(9), rng.permutation(5)
+        self.signs = rng.choice([-1.0, 1.0], size=12)
+        self.layers = [
+            size * rng.normal(size=shape)
+            for size, shape in zip((0.3, 0.1) * 2, SHAPES, strict=True)
+        ]
+
+    def inputs(self, sensing):
+        found = self.encoder(sensing)
+        return self.signs * np.hstack([found[:, self.sensors], found[:, 9:]])
+
+    def drive(self, sensing, rng):
+        """The policy after the last round."""
+        best = outputs_of(self.layers[:2], self.inputs(sensing)).argmax(axis=1)
+        return self.motors[best]
+
+    def practised(self, worlds):
+        """States, actions, their logarithms, episodes and ends of the steps in which the policy was asked."""
+        from robonav.robot import Outcome, Simulator, run_episodes
+
+        simulator, steps = Simulator(worlds, max_steps=150), []
+
+        def select_actions(simulator, sensing, robots):
+            now = self.inputs(sensing)
+            z = outputs_of(self.layers[:2], now)
+            z = z - z.max(axis=1, keepdims=True)
+            log_policy = z - np.log(np.exp(z).sum(axis=1, keepdims=True))
+            drawn = (log_policy + self.rng.gumbel(size=z.shape)).argmax(axis=1)
+            steps.append((robots, now, drawn, log_policy[np.arange(len(z)), drawn]))
+            return self.motors[drawn]
+
+        for _ in run_episodes(simulator, select_actions):
+            pass
+        robots, *columns = (
+            np.concatenate(column) for column in zip(*steps, strict=True)
+        )
+        order = np.argsort(robots, kind="stable")
+        episodes = robots[order]
+        last = np.append(episodes[1:] != episodes[:-1], True)
+        arrived = simulator.outcome[episodes] == Outcome.ARRIVED
+        ends = np.where(last, np.where(arrived, 1, -1), 0)
+        return *(column[order] for column in columns), episodes, ends
+
+
+def reinforced(answer, rng, obstacles):
+    """Let a robot practise in twelve rounds, and see how its drives end in 100 new worlds."""
+    from robonav.robot import navigate, random_worlds
+
+    robot = Actor(rng)
+    for number in range(12):
+        worlds = random_worlds(60, obstacles, seed=rng)
+        states, actions, log_before, episodes, ends = robot.practised(worlds)
+        given = robot.layers
+        got = answer.ask(
+            given, states, actions, log_before, episodes, ends, 11 - number
+        )
+        layers = got if isinstance(got, list | tuple) else []
+        weights = [as_numbers(layer) for layer in layers]
+        fits = [w is not None and w.shape for w in weights] == SHAPES
+        answer.check(
+            fits and all(np.isfinite(w.astype(float)).all() for w in weights),
+            "the answer must be the layers (16, 13), (5, 17), (16, 13) and (1, 17), finite numbers",
+        )
+        weights = [w.astype(float) for w in weights]
+        robot.layers = [np.clip(w, -1e6, 1e6) for w in weights]
+    worlds = random_worlds(100, obstacles, seed=rng)
+    return navigate(robot.drive, worlds, max_steps=150).outcome
+
+
+def drives_well(answer, rng, obstacles, least):
+    """Require that many of 100 drives arrive after practice among so many obstacles."""
+    from robonav.grading.drives import require_arrivals
+
+    require_arrivals(
+        answer,
+        reinforced(answer, rng, obstacles),
+        least,
+        collided="Look at the sign of the gradient, which the objective rises along, and at whether a collision reaches "
+        "the steps before it: they share in what comes later in their episode, discounted.",
+        late="Perhaps they go in circles. Look at what a step costs: a small cost makes circles worse than arriving. "
+        "And at the size of the steps: a policy that is certain too soon tries nothing else, so limit how far a round "
+        "may change it, and let the entropy count.",
+    )
+
+
+@pytest.mark.part("6.7", points=6)
+def test_reinforce_among_ten_obstacles(answer, rng):
+    """Arrives in 80 of 100 new worlds with ten obstacles; a robot that goes straight arrives in 40."""
+    drives_well(answer, rng, 10, 80)
+
+
+@pytest.mark.part("6.7", points=4)
+def test_reinforce_among_twenty_obstacles(answer, rng):
+    """Arrives in 70 of 100 new worlds with twenty obstacles; a robot that goes straight arrives in 15."""
+    drives_well(answer, rng, 20, 70)

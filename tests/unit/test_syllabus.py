@@ -178,6 +178,14 @@ def test_no_exercise_comes_twice_or_before_its_page(name: str) -> None:
     assert open_tasks <= set(done)  # in both courses
 
 
+@both_plans
+def test_homework_is_spread_over_the_sessions(name: str) -> None:
+    """No week, and no evening of the five days, asks for more than three hours and three quarters."""
+    for session in PLANS[name].sessions:
+        home = syllabus.minutes_of(session.homework, COURSE)
+        assert home <= 225, (session.title, home)
+
+
 def test_each_page_shows_what_the_tables_say() -> None:
     plan = PLANS["weeks"]
     text = syllabus.session_text(1, plan.sessions[0], plan, COURSE)

@@ -69,3 +69,36 @@ def probabilities_turned(transitions, rewards, discount, values, terminal):
     q = np.einsum("ats,ast->sa", transitions, target)
     q[terminal] = 0.0
     return q
+
+
+def _backed_up(transitions, rewards, discount, values, terminal):
+    following = np.where(terminal, 0.0, values)
+    q = np.einsum("ast,ast->sa", transitions, rewards + discount * following)
+    q[terminal] = 0.0
+    return q
+
+
+def best_action_alone(*case):
+    """Return the value of each action, and not only that of the best one."""
+    return _backed_up(*case).max(axis=1, keepdims=True)
+
+
+def mean_of_the_actions(*case):
+    """Return the value of each action, and not their mean in its place."""
+    q = _backed_up(*case)
+    return np.broadcast_to(q.mean(axis=1, keepdims=True), q.shape).copy()
+
+
+def value_of_the_same_state(transitions, rewards, discount, values, terminal):
+    """The value is that of the next state, not that of the state before the step."""
+    q = np.einsum("ast,ast->sa", transitions, rewards)
+    q = q + discount * np.where(terminal, 0.0, values)[:, None]
+    q[terminal] = 0.0
+    return q
+
+
+def likeliest_next_state_alone(transitions, rewards, discount, values, terminal):
+    """Sum over all next states with their probabilities; do not take the likeliest one alone."""
+    likeliest = transitions == transitions.max(axis=2, keepdims=True)
+    alone = likeliest / likeliest.sum(axis=2, keepdims=True)
+    return _backed_up(alone, rewards, discount, values, terminal)

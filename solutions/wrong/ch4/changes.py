@@ -61,3 +61,25 @@ def over_the_episodes(weights):
     return np.column_stack(
         [change.sum(axis=0), np.abs(change).sum(axis=0), np.abs(change).max(axis=0)]
     )
+
+
+def of_the_weights(weights):
+    """Measure how the weights change, not the weights themselves."""
+    return _measures(weights[1:])
+
+
+def root_of_the_squares(weights):
+    """The second measure is made of absolute values: do not square them and take the root."""
+    change = np.diff(weights, axis=0)
+    return _measures(change, np.sqrt((change**2).sum(axis=1)))
+
+
+def smallest(weights):
+    """The third measure is the largest absolute change, not the smallest."""
+    change = np.diff(weights, axis=0)
+    return np.column_stack([_measures(change)[:, :2], np.abs(change).min(axis=1)])
+
+
+def a_row_before_the_first(weights):
+    """There is one row for each episode; the weights before the first episode have no change of their own."""
+    return np.vstack([np.zeros(3), _measures(np.diff(weights, axis=0))])

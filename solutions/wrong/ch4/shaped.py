@@ -66,3 +66,27 @@ def from_the_step_before(rewards, potentials, ended, discount):
     """The potentials have an entry more than the rewards: step t leads from entry t to entry t + 1."""
     before = np.concatenate([potentials[:1], potentials[:-2]])[: len(rewards)]
     return rewards + discount * potentials[:-1] - before
+
+
+def _following(rewards, potentials, ended):
+    after = np.append(potentials[1:-1], 0.0 if ended else potentials[-1])
+    return after[: len(rewards)]
+
+
+def flag_turned(rewards, potentials, ended, discount):
+    """The flag is the other way round: the last potential is zero where the episode ended, else it is kept."""
+    following = _following(rewards, potentials, not ended)
+    return rewards + discount * following - potentials[:-1]
+
+
+def nothing_added_at_the_end(rewards, potentials, ended, discount):
+    """In the last step only the next potential counts as zero: the one before the step is still subtracted."""
+    added = discount * _following(rewards, potentials, ended) - potentials[:-1]
+    added[-1:] = 0.0 if ended else added[-1:]
+    return rewards + added
+
+
+def rewards_discounted(rewards, potentials, ended, discount):
+    """The rewards themselves stay as they are; only the potential of the next state is discounted."""
+    following = _following(rewards, potentials, ended)
+    return discount * (rewards + following) - potentials[:-1]
