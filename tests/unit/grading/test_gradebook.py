@@ -751,6 +751,7 @@ def test_a_long_torn_line_does_not_hide_the_line_before_it(tmp_path):
     assert (len(log.events), log.torn, log.broken) == (2, [2], [])
 
 
+@pytest.mark.slow
 def test_the_gradebook_of_a_variant_has_its_exercises(tmp_path, quick):
     book_of(tmp_path, ["ada"])
     variants.write(COURSE, "autumn", tmp_path / "out/exercises")

@@ -137,10 +137,45 @@ def passes_its_own_and_no_other(exercise, found, passes, remembered, without=())
 
 @pytest.mark.slow
 def test_known_mistakes_are_hinted_in_every_variant(exercise, made, passes):
-    tried = variants.covering([values for values, _, _ in made(exercise)])
-    for values, course, known in made(exercise):
-        if values not in tried or values == tried[0]:
-            continue  # the book's are in test_exercises
+    """Of a long exercise, in variants in which each value of each knob occurs."""
+    found = made(exercise)
+    tried = [values for values, _, _ in found]
+    tried = with_each_value(tried) if exercise in LONG else variants.covering(tried)
+    mistakes_are_hinted(exercise, found, tried[1:], passes)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("exercise", LONG, ids=lambda exercise: exercise.name)
+def test_so_they_are_where_two_values_of_a_long_exercise_meet(exercise, made, passes):
+    found = made(exercise)
+    mistakes_are_hinted(exercise, found, [own for own, _, _ in found[1:]], passes)
+
+
+def with_each_value(every):
+    """The first combination, and as few others as give each value of each knob a place."""
+    taken, missing = every[:1], {pair for values in every for pair in values.items()}
+    missing -= taken[0].items()
+    while missing:
+        taken.append(max(every, key=lambda values: len(values.items() & missing)))
+        missing -= taken[-1].items()
+    return taken
+
+
+def test_each_value_has_a_place():
+    for exercise in LONG:
+        every = variants.combinations(variants.knobs(COURSE, exercise))
+        some = with_each_value(every)
+        assert some[0] == every[0]
+        assert len(some) < len(variants.covering(every))
+        for name in every[0]:
+            assert {own[name] for own in some} == {own[name] for own in every}
+
+
+def mistakes_are_hinted(exercise, found, tried, passes):
+    """Let every known mistake answer the variants with the ``tried`` values. The book's are in test_exercises."""
+    for values, course, known in found:
+        if values not in tried:
+            continue
         assert len(mistakes(course, exercise)) >= 3
         for name, function in mistakes(course, exercise).items():
             if (

@@ -102,6 +102,7 @@ def test_a_round_of_dagger_beats_cloning_little(demonstrations):
     assert len(gathered.demonstrations[1]) > len(gathered.demonstrations[0]) == len(few)
 
 
+@pytest.mark.slow
 def test_each_round_adds_labelled_states_to_all_data_before(demonstrations):
     begin = demonstrate(random_worlds(3, 20, seed=79), speed=1.5)
     rounds = [random_worlds(3, 20, seed=80), random_worlds(2, 20, seed=81)]
@@ -154,6 +155,7 @@ def test_an_episode_that_is_stopped_early_gives_no_more_labels(demonstrations):
     assert made.demonstrations[1].lengths[len(demonstrations.worlds) :].max() <= 7
 
 
+@pytest.mark.slow
 def test_mixture_of_expert_and_learner():
     """With beta = 1 the expert acts alone, with 0 the learner, between them both; the labels are the expert's."""
     worlds = random_worlds(20, 20, seed=84)

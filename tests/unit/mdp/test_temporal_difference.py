@@ -205,7 +205,9 @@ def test_q_learning_tends_to_the_plan_on_frozen_lake():
     np.testing.assert_allclose(learned.q[seen], planned[seen], atol=0.03)
 
 
-@pytest.mark.parametrize("learn", [sarsa, expected_sarsa])
+@pytest.mark.parametrize(
+    "learn", [sarsa, pytest.param(expected_sarsa, marks=pytest.mark.slow)]
+)
 def test_sarsa_learns_the_value_of_exploring(learn):
     """With epsilon 1 the policy is blind whatever is learned, and its values are known."""
     lake = gym.make("FrozenLake-v1", max_episode_steps=1000)

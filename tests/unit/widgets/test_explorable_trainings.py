@@ -178,6 +178,7 @@ def test_a_network_learns_as_without_a_watcher():
     assert ended["given"]["actions"] == ["F", "L30", "L60", "R30", "R60"]
 
 
+@pytest.mark.slow
 def test_two_methods_are_compared():
     page = Page("seeds_to_tell_apart")
     given = page.train(one="online", other="NNQL", seed=10)["given"]
@@ -262,6 +263,7 @@ def test_values_of_the_rooms_are_those_of_the_package(method):
             assert [passed.count(str(room)) for room in range(7)] == run.visits.tolist()
 
 
+@pytest.mark.slow
 def test_a_car_learns_with_the_reader_s_tilings():
     page = Page("shared_tiles")
     ended = page.train(tilings=4, learning_rate=0.8, episodes=20, seed=3)
