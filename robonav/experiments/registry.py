@@ -23,6 +23,7 @@ MODULES = (
     "chapter6.tuning",
     "chapter6.ppo",
     "chapter6.memory",
+    "chapter6.sensing",
     "chapter6.gail",
     "chapter6.team",
     "single_runs",

@@ -54,11 +54,11 @@ export function mapCanvas(attributes = {}) {
     pen.stroke();
   };
 
-  /** What each sensor sees. @param {Pose} pose */
+  /** What each sensor sees, in as many equal sectors as there are ranges. @param {Pose} pose */
   const sectors = ({ x, y, heading }, ranges) => {
-    const half = ROBOT.sector / 2;
+    const half = Math.PI / ranges.length;
     ranges.forEach((distance, k) => {
-      const middle = heading + k * ROBOT.sector;
+      const middle = heading + k * 2 * half;
       pen.beginPath();
       pen.moveTo(toX(x), toY(y));
       pen.arc(toX(x), toY(y), Math.max(distance, 0) * scale, -(middle - half), -(middle + half), true);

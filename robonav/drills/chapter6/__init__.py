@@ -5,4 +5,5 @@ from . import conclusions as conclusions
 from . import deep_reinforcement_learning as deep_reinforcement_learning
 from . import memory as memory
 from . import planners as planners
+from . import sensing as sensing
 from . import several_robots as several_robots

@@ -9,7 +9,8 @@ from robonav.robot import make_world
 from ..simulator import page_world
 from .registry import asks
 
-PLANNERS = ("simulator", "maps", "planners")
+SIMULATOR = ("simulator", "maps")
+PLANNERS = (*SIMULATOR, "planners")
 
 
 @asks(
@@ -153,3 +154,30 @@ def what_a_memory_keeps() -> dict[str, Any]:
 def nearest_moment() -> dict[str, Any]:
     """Where the second robot is seen from the first, and where it goes."""
     return {"x": 3.5, "y": 1.0, "heading": 180}
+
+
+@asks(
+    "Which rings show the gap?",
+    "The robot stands in front of a gap of 2.8 m between two circles, and it needs 2 m. "
+    "The edges of the circles lie 9.7° to its left and to its right. "
+    "Which rings of sectors show the gap, as a sector ahead that is free?",
+    guesses=[
+        "all four",
+        "those with 18, 36 and 72 sectors",
+        "those with 36 and 72 sectors",
+        "only the one with 72 sectors",
+    ],
+    right="those with 36 and 72 sectors",
+    because="The sector ahead is free only if it is narrower than twice 9.7°, and one of 18 is 20° wide.",
+    files=SIMULATOR,
+)
+def ring_and_picture() -> dict[str, Any]:
+    """A small world with a gap between two circles, and the robot's first place in front of it."""
+    world = make_world(
+        circles=[(20, 23.4, 2), (20, 16.6, 2)],
+        rectangles=[(9, 33, 6, 3, 30)],
+        start=(5, 5),
+        target=(35, 20),
+        size=40.0,
+    )
+    return {"world": page_world(world), "pose": [12.0, 20.0]}

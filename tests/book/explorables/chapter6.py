@@ -21,9 +21,10 @@ from robonav.planners import (
     vector_field_histogram,
 )
 from robonav.planners.vector_field_histogram import DIRECTIONS, FARTHEST
-from robonav.robot import navigate
+from robonav.robot import Simulator, navigate
 from robonav.robot.team.plain import least_distance
-from robonav.style import BLUE, GREEN, OBSTACLE, ORANGE, SKY, VERMILION
+from robonav.sensing import picture_around, sector_ranges, shapes_of
+from robonav.style import BLUE, GREEN, OBSTACLE, ORANGE, ROBOT, SKY, VERMILION
 
 from .maps import pose_of, sensed, towards_target, world_of
 from .reader import choose, keys, slide
@@ -238,3 +239,37 @@ def nearest_moment(shown: Shown) -> None:
     chart = shown.picture()
     chart.has_curve(BLUE, np.column_stack([times, distances]))
     chart.has_dots(VERMILION, [(moment, nearest)])
+
+
+@expects(
+    choose("sectors", "36"),
+    slide("heading", 0.3),
+    choose("sectors", "72"),
+    by_keyboard=[
+        choose("sectors", "18"),
+        keys("ArrowRight ArrowRight ArrowUp ArrowRight ArrowRight"),
+        slide("heading", 0.9),
+    ],
+)
+def ring_and_picture(shown: Shown) -> None:
+    """Ranges and picture are those of the readable functions."""
+    world, pose = world_of(shown.given["world"]), np.array(pose_of(shown))
+    sectors, shapes = int(shown.chosen("sectors")), shapes_of(Simulator(world), 0)
+    ranges = sector_ranges(*shapes, pose, sectors)
+    free = int((ranges >= 10).sum())
+    ahead = f"reads {ranges[0]:.9f} m" if ranges[0] < 10 else "is free"
+    dark = np.argwhere(picture_around(*shapes, pose, 32))
+    shown.says(
+        f"The sector ahead, {360 // sectors}° wide, {ahead}.",
+        f"{free} of {sectors} sectors are free, together {free * 360 // sectors}° of 360°.",
+        f"The picture has {len(dark)} dark cells.",
+    )
+    drawn = shown.map(world.size)
+    arcs = [line for line in drawn.of("line", BLUE) if len(line) == 2]
+    np.testing.assert_allclose([arc[1, 2] for arc in arcs], ranges, atol=1e-6)
+    cells = shown.picture().of("rect", fill=OBSTACLE)
+    places = [[float(cell["y"]) / 8, float(cell["x"]) / 8] for cell in cells]
+    assert places == dark.tolist()
+    (robot,) = drawn.of("shape", ROBOT)
+    tip = pose[:2] + 2.2 * np.array([np.cos(pose[2]), np.sin(pose[2])])
+    np.testing.assert_allclose(robot[0, :2], tip, atol=1e-6)

@@ -324,3 +324,59 @@ def test_stored_or_used_by_the_quadratic_equation() -> None:
         expected = ("does not hold", "does not use", "and the policy uses")
         assert expected[int(stored) + int(stored and used)] in question.asked.right
         assert stored or not used
+
+
+def test_edge_of_a_circle_by_many_rays() -> None:
+    for question in drawn("edge-of-a-circle"):
+        radius, ahead, left = numbers(question.text)[:3]
+        angles = np.radians(np.arange(0, 90, 0.002))
+        across = abs(ahead * np.sin(angles) - left * np.cos(angles))
+        first = np.degrees(angles[np.argmax(across <= radius)])
+        assert question.asked.answer == pytest.approx(first, abs=0.004)
+
+
+def test_around_a_ring_by_laying_the_ring_out_three_times() -> None:
+    for question in drawn("around-a-ring"):
+        lists = re.findall(r"= \(([-\d, ]+)\)", question.text)
+        x, w = ([int(n) for n in found.split(",")] for found in lists)
+        y = np.correlate(np.tile(x, 3), w, mode="same")[6:12]
+        assert question.asked.answer[0] == [y[0], y[5]]
+
+
+def test_numbers_of_weights_by_layers_of_torch() -> None:
+    for question in drawn("numbers-of-weights"):
+        sectors, units, channels, window = (
+            int(re.search(pattern, question.text)[1])
+            for pattern in (r"(\d+) sectors, with", r"has (\d+) units", r"has (\d+) windows", r"each (\d+) sectors")
+        )  # fmt: skip
+        layers = torch.nn.Linear(sectors, units), torch.nn.Conv1d(1, channels, window)
+        assert question.asked.answer[0] == [
+            sum(part.numel() for part in layer.parameters()) for layer in layers
+        ]
+
+
+def test_cells_that_a_unit_sees_by_the_gradient_of_a_unit() -> None:
+    for question in drawn("cells-that-a-unit-sees"):
+        layers, window, _, stride, *_ = (int(n) for n in numbers(question.text)[:4])
+        width = float(re.search(r"is ([\d.]+) m wide", question.text)[1])
+        one = torch.nn.Conv1d(1, 1, window, stride, bias=False).double()
+        torch.nn.init.ones_(one.weight)
+        row = torch.zeros(1, 1, 4000, dtype=torch.float64, requires_grad=True)
+        found = row
+        for _ in range(layers):
+            found = one(found)
+        found[0, 0, 0].backward()
+        seen = int((row.grad != 0).sum())
+        assert question.asked.answer == pytest.approx(seen * width)
+
+
+def test_price_of_randomising_by_counting_a_thousand_drives() -> None:
+    for question in drawn("price-of-randomising"):
+        plain, plain_noisy, randomised, noisy = (
+            round(10 * n) for n in numbers(question.text)[:4]
+        )
+        cost, avoided = question.asked.answer[0]
+        assert cost == pytest.approx((plain - randomised) / 10)
+        failed = set(range(plain_noisy, 1000))
+        left = set(range(noisy, 1000))
+        assert avoided == pytest.approx(100 * len(failed - left) / len(failed))

@@ -273,3 +273,60 @@ def test_what_the_page_says_about_learning_together():
     assert arrived(8, 1) > 95
     assert arrived(1, 1) > 95
     assert abs(arrived(8, 16) - of_team("success", method="dagger", robots=16)) < 10
+
+
+def sensed(metric, number, network, sensor="sectors"):
+    results = published("sensing")
+    case = {"sensor": sensor, "number": number, "network": network}
+    return results.summary(metric, list(results.experiment.cases).index(case))
+
+
+RINGS = [(n, "fully connected") for n in (9, 18, 36, 72)] + [
+    (n, "convolutional") for n in (36, 72)
+]
+
+
+def test_what_the_page_says_about_rings():
+    """All intervals overlap with that of nine sectors, and half of the preferred actions are the expert's."""
+    for metric in ("success", "30 obstacles"):
+        few = sensed(metric, 9, "fully connected")
+        for ring in RINGS[1:]:
+            more = sensed(metric, *ring)
+            assert more.low < few.high
+            assert few.low < more.high
+    found = [sensed("expert's action", *ring).mean for ring in RINGS]
+    assert 45 < min(found) < max(found) < 60
+
+
+def test_what_the_page_says_about_moving_obstacles():
+    """One pair with nine sectors is apart: the ring of 18, where obstacles move."""
+    apart = [
+        (metric, ring)
+        for metric in ("10 obstacles", "success", "30 obstacles", "10 and 10 moving")
+        for ring in RINGS[1:]
+        if sensed(metric, *ring).low > sensed(metric, 9, "fully connected").high
+        or sensed(metric, *ring).high < sensed(metric, 9, "fully connected").low
+    ]
+    assert apart == [("10 and 10 moving", (18, "fully connected"))]
+
+
+def test_what_the_page_says_about_weights():
+    page = Path("book/sensing.md").read_text("utf-8")
+    counted = [
+        sensed("weights", 32, network, "picture").mean
+        for network in ("convolutional", "fully connected")
+    ]
+    assert "about a third of its weights" in page
+    assert counted[0] / counted[1] == pytest.approx(1 / 3, abs=0.05)
+    shared, full = (
+        sensed("collision", 32, network, "picture")
+        for network in ("convolutional", "fully connected")
+    )
+    assert shared.high < full.low
+
+
+def test_what_the_page_says_about_randomised_training():
+    results = published("sensing-randomised")
+    for metric in ("success", "1 m, 0.4", "3 m, 0.8"):
+        exact, randomised = (results.summary(metric, case).mean for case in (0, 1))
+        assert randomised <= exact

@@ -22,6 +22,7 @@ from robonav.robot import (
     TARGET_ENCODINGS,
     Action,
     Reflex,
+    Simulator,
     concatenate,
     degree_of_danger,
     make_world,
@@ -31,6 +32,7 @@ from robonav.robot import (
     straight,
     turn_to_clearer_side,
 )
+from robonav.sensing import Picture, Ring
 from robonav.widgets.explorables import EXPLORABLES, chapter2, chapter3, explorable
 from robonav.widgets.simulator import page_world
 
@@ -1031,3 +1033,42 @@ def test_a_larger_clearance_narrows_the_openings(compute):
     assert openings >= 2
     assert fewer <= openings
     assert left < bins
+
+
+def around_the_gap():
+    """The world of the explorable, and places in it, some of them in an obstacle."""
+    world = make_world(
+        circles=[(20, 23.4, 2), (20, 16.6, 2)], rectangles=[(9, 33, 6, 3, 30)],
+        start=(5, 5), target=(35, 20), size=40.0,
+    )  # fmt: skip
+    return world, places_among(world, 60, seed=2)
+
+
+@pytest.mark.parametrize("sectors", [9, 18, 36, 72])
+def test_rings_and_pictures_are_those_of_the_package(compute, sectors):
+    world, poses = around_the_gap()
+    assert page_world(world) == explorable("ring_and_picture").data["given"]["world"]
+    body = """
+    return data.poses.map(([x, y, heading]) => {
+      const pose = { x, y, heading };
+      return [page.ringRanges(given.world, pose, data.sectors), page.coveredCells(given.world, pose, 32)];
+    });"""
+    found = compute("ring_and_picture", body, poses=poses.tolist(), sectors=sectors)
+    simulator = Simulator(concatenate([world] * len(poses)))
+    simulator.poses[:] = poses
+    everyone = np.arange(len(poses))
+    ranges = Ring(sectors).ranges(simulator, everyone)
+    np.testing.assert_allclose([ring for ring, _ in found], ranges, atol=1.1e-6)
+    pictures = Picture(32)(simulator, everyone)
+    assert [cells for _, cells in found] == [np.argwhere(p).tolist() for p in pictures]
+
+
+def test_the_gap_is_seen_by_the_rings_that_the_answer_names(compute):
+    body = """
+    const [x, y] = given.pose;
+    return [9, 18, 36, 72].map((n) => page.ringRanges(given.world, { x, y, heading: 0 }, n)[0]);"""
+    ahead = compute("ring_and_picture", body)
+    assert [metres == 10 for metres in ahead] == [False, False, True, True]
+    half = np.arctan2(3.4, 8) - np.arcsin(2 / np.hypot(3.4, 8))
+    asked = EXPLORABLES["ring_and_picture"]
+    assert f"{np.degrees(half):.1f}°" in asked.question
