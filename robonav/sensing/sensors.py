@@ -76,8 +76,9 @@ def sector_ranges(
     """
     position, heading, width = pose[:2], pose[2], 2 * np.pi / sectors
     rays = heading + (np.arange(sectors) + 0.5) * width  # ray k is left of sector k
-    seen = see_circles(circles, position, rays), see_rectangles(rectangles, position, rays)  # fmt: skip
-    nearest, bearing, on_rays = map(np.concatenate, zip(*seen, strict=True))
+    round_ones = see_circles(circles, position, rays)
+    both = zip(round_ones, see_rectangles(rectangles, position, rays), strict=True)
+    nearest, bearing, on_rays = map(np.concatenate, both)
 
     sector = np.floor((bearing - heading) / width + 0.5).astype(np.int64) % sectors
     holds_it = sector[:, None] == np.arange(sectors)
