@@ -90,6 +90,13 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         False,
         "Runs of chapter 5, and the four methods beside each other.",
     ),
+    "Time to train": (
+        "training.py",
+        (),
+        False,
+        "One policy of each method, in processor time, with its demonstrations and its "
+        "episodes in the simulator.",
+    ),
     "Decisions": (
         "decisions.py",
         (),

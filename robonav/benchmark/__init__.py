@@ -1,6 +1,6 @@
 """The registry of policies, and the leaderboard, which tests all methods in the same worlds."""
 
-from .evaluation import EXACT_REFLEX, outcome_rates
+from .evaluation import EXACT_REFLEX, outcome_rates, pareto_front
 from .leaderboard import (
     DIGESTS,
     SETTINGS,
@@ -42,6 +42,7 @@ __all__ = [
     "method",
     "methods",
     "outcome_rates",
+    "pareto_front",
     "shortest_paths",
     "spl",
     "success_interval",

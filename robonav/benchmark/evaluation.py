@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from robonav.robot import Navigation, Reflex
 
 OUTCOMES = {
@@ -38,3 +41,27 @@ def outcome_rates(navigation: Navigation) -> dict[str, float]:
         name: 100 * float((navigation.outcome == outcome).mean())
         for name, outcome in OUTCOMES.items()
     }
+
+
+def pareto_front(points: ArrayLike) -> NDArray[np.bool_]:
+    """Which points no other point beats in all criteria at once: the Pareto front.
+
+    Parameters
+    ----------
+    points : (N, K) array
+        K criteria of N methods. A greater number is better.
+
+    Returns
+    -------
+    (N,) array of bool
+
+    Examples
+    --------
+    A is best in the first criterion and B in the second; C is beaten by B:
+
+    >>> pareto_front([[95, 70], [90, 80], [89, 75]])
+    array([ True,  True, False])
+    """
+    points = np.asarray(points)
+    beats = np.all(points[None] > points[:, None], axis=-1)  # [n, m]: m beats n
+    return np.logical_not(np.any(beats, axis=1))

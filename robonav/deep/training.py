@@ -109,6 +109,7 @@ def train_ppo(
     actors: int = 16,
     task: NavigationTask | None = None,
     hidden: Sequence[int] = (32,),
+    start: PPOResult | None = None,
     progress: Progress | None = None,
     **settings: Any,
 ) -> PPOResult:
@@ -129,6 +130,9 @@ def train_ppo(
         What to train on; by default :func:`navigation_task`.
     hidden : sequence of int
         Units of each hidden layer.
+    start : PPOResult, optional
+        An earlier training of as many seeds, whose networks go on to learn; ``hidden`` is then not used. Take other
+        seeds than it had, so that the robots meet other worlds.
     progress : callable, optional
         Called as ``progress(updates done, updates)``.
     **settings
@@ -149,9 +153,17 @@ def train_ppo(
     >>> from robonav.deep import train_ppo
     >>> train_ppo(seeds=2, updates=1, actors=4, steps=16).policy.sizes
     (12, 32, 5)
+
+    Two seeds learn among 10 obstacles, and then go on among 30:
+
+    >>> from robonav.deep import navigation_task
+    >>> easy = train_ppo(seeds=[0, 1], updates=1, actors=4, steps=16)
+    >>> hard = navigation_task(obstacles=30)
+    >>> train_ppo(seeds=[2, 3], updates=1, actors=4, steps=16, task=hard, start=easy).seeds
+    (2, 3)
     """
     training = Training.checked(seeds, updates, actors, task, hidden, settings)
-    return train_seeds(training, progress)
+    return train_seeds(training, progress, start=start)
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,17 +210,36 @@ def rewards_of_task(rollout: Rollout, rngs: Sequence[np.random.Generator]) -> Ro
     return rollout
 
 
+def first_networks(
+    training: Training, start: PPOResult | None
+) -> tuple[NetworkStack, NetworkStack]:
+    """Return the policies and the value functions to start from: random ones, or those of an earlier training."""
+    size = training.task.encoder.size
+    if start is None:
+        drawn = [
+            random_actor_critic(size, training.hidden, ACTIONS, seed)
+            for seed in training.seeds
+        ]
+        policies = stacked([one.policy for one in drawn])
+        return policies, stacked([one.value for one in drawn])
+    check_instance("start", start, PPOResult)
+    if len(start.seeds) != len(training.seeds) or start.policy.sizes[0] != size:
+        raise ValueError(
+            f"start must be a training of {len(training.seeds)} seeds with {size} inputs, "
+            f"got {len(start.seeds)} seeds with {start.policy.sizes[0]}"
+        )
+    return start.policy, start.value
+
+
 def train_seeds(
-    training: Training, progress: Progress | None, rewards: Rewards = rewards_of_task
+    training: Training,
+    progress: Progress | None,
+    rewards: Rewards = rewards_of_task,
+    start: PPOResult | None = None,
 ) -> PPOResult:
     """Train all seeds by PPO."""
     seeds, task, options = training.seeds, training.task, training.settings
-    started = [
-        random_actor_critic(task.encoder.size, training.hidden, ACTIONS, seed)
-        for seed in seeds
-    ]
-    policy = StackedModule(stacked([one.policy for one in started]))
-    value = StackedModule(stacked([one.value for one in started]))
+    policy, value = map(StackedModule, first_networks(training, start))
     robots = Actors(task, seeds, training.actors)
     optimiser = adam(options["gradient_step"], policy, value)
     ended, arrived = np.zeros((2, len(seeds), training.updates), np.int64)
@@ -219,10 +250,15 @@ def train_seeds(
         learn(policy, value, optimiser, rewards(rollout, rngs), rngs, options)
         if progress is not None:
             progress(update + 1, training.updates)
-    about = {name: getattr(training, name) for name in ("updates", "actors", "hidden")}
+    learned = policy.stack()
+    about = {
+        "updates": training.updates,
+        "actors": training.actors,
+        "hidden": learned.sizes[1:-1],
+    }
     return PPOResult(
-        seeds, policy.stack(), value.stack(), task.encoder, ended, arrived, options | about
-    )  # fmt: skip
+        seeds, learned, value.stack(), task.encoder, ended, arrived, options | about
+    )
 
 
 def learn(

@@ -22,6 +22,7 @@ MODULES = (
     "chapter6.planners",
     "chapter6.tuning",
     "chapter6.ppo",
+    "chapter6.curriculum",
     "chapter6.memory",
     "chapter6.sensing",
     "chapter6.gail",

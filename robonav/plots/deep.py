@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from robonav import style
 from robonav.deep import clipped_surrogate
-from robonav.experiments import bootstrap_interval
+from robonav.experiments import Results, bootstrap_interval
 
 COLOURS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE)
 
@@ -81,3 +81,43 @@ def draw_arrivals(axes: Axes, shares: Mapping[str, ArrayLike], *, steps: int) ->
     )
     if len(shares) > 1:
         axes.figure.legend(loc="outside upper left", ncols=2)
+
+
+def draw_failures(axes: Axes, results: Results, *, steps: str, lines: str) -> None:
+    """Draw which share of the episodes fails, on a logarithmic scale, with the 95 % interval of the mean over seeds.
+
+    Parameters
+    ----------
+    axes : Axes
+        To draw on.
+    results : Results
+        With the metric "success".
+    steps, lines : str
+        The key of the cases that goes along the axis, and the one that has a line for each value.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from robonav.experiments import read_results
+    >>> axes = Figure().add_subplot()
+    >>> draw_failures(axes, read_results("ppo-curriculum"), steps="stage", lines="setting")
+    >>> len(axes.containers)
+    3
+    """
+    cases = results.experiment.cases
+    names = list(dict.fromkeys(str(case[steps]) for case in cases))
+    for colour, line in zip(COLOURS, dict.fromkeys(c[lines] for c in cases), strict=False):  # fmt: skip
+        found = [
+            results.summary("success", place)
+            for place, case in enumerate(cases)
+            if case[lines] == line
+        ]
+        failed = 100 - np.array([one.mean for one in found])
+        ends = [[one.high - one.mean, one.mean - one.low] for one in found]
+        axes.errorbar(
+            range(len(names)), failed, np.transpose(ends),
+            color=colour, marker="o", capsize=3, label=str(line),
+        )  # fmt: skip
+    axes.set(yscale="log", ylabel="episodes that fail (%)", xticks=range(len(names)), xticklabels=names)  # fmt: skip
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.legend()

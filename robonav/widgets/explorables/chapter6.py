@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from robonav.robot import make_world
@@ -11,6 +12,21 @@ from .registry import asks
 
 SIMULATOR = ("simulator", "maps")
 PLANNERS = (*SIMULATOR, "planners")
+
+EXAMPLE = [
+    {
+        "name": name,
+        "values": {
+            worlds: {"success": success, "short ways": ways, "no collision": 96}
+            for worlds, success in successes.items()
+        },
+    }
+    for name, ways, successes in (
+        ("careful", 70, {"10 obstacles": 99, "20 obstacles": 95}),
+        ("quick", 80, {"10 obstacles": 98, "20 obstacles": 90}),
+    )
+]
+"""Two methods that do not beat each other; the page gives those of the leaderboard."""
 
 
 @asks(
@@ -181,3 +197,16 @@ def ring_and_picture() -> dict[str, Any]:
         size=40.0,
     )
     return {"world": page_world(world), "pose": [12.0, 20.0]}
+
+
+@asks(
+    "Which method is better?",
+    "A method is beaten if another one arrives more often and has shorter ways as well. "
+    "With 20 obstacles, how many of the methods are not beaten?",
+    guesses=["exactly one, the best method", "a few", "nearly all"],
+    right="a few",
+    because="A method that arrives more often mostly has longer ways, so that several trade one for the other.",
+)
+def two_criteria(methods: Sequence[Mapping[str, Any]] = EXAMPLE) -> dict[str, Any]:
+    """The criteria of each method by the number of obstacles, in per cent."""
+    return {"worlds": list(methods[0]["values"]), "methods": list(methods)}

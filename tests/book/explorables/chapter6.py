@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import torch
 
+from robonav.benchmark import display_name
 from robonav.deep import (
     advantages,
     clipped_surrogate,
@@ -12,6 +13,7 @@ from robonav.deep import (
     hurrying_reward,
     log_odds,
 )
+from robonav.experiments import read_results
 from robonav.memory import GRU
 from robonav.planners import (
     PotentialField,
@@ -273,3 +275,36 @@ def ring_and_picture(shown: Shown) -> None:
     (robot,) = drawn.of("shape", ROBOT)
     tip = pose[:2] + 2.2 * np.array([np.cos(pose[2]), np.sin(pose[2])])
     np.testing.assert_allclose(robot[0, :2], tip, atol=1e-6)
+
+
+@expects(
+    slide("method", 0.5),
+    choose("second criterion", "no collision"),
+    by_keyboard=[choose("obstacles", "30 obstacles"), slide("method", 0.9)],
+    by_touch=[choose("obstacles", "10 obstacles"), slide("method", 0.2)],
+)
+def two_criteria(shown: Shown) -> None:
+    """A method is beaten if another one is better in both; the numbers are those of the leaderboard."""
+    worlds, criterion = shown.chosen("obstacles"), shown.chosen("second criterion")
+    second = {"short ways (SPL)": "SPL", "no collision": "collision"}[criterion]
+    board, points = read_results("leaderboard"), {}
+    for place, case in enumerate(board.experiment.cases):
+        if case["setting"] == worlds and case["method"] != "straight":
+            success, other = (board.summary(metric, place).mean for metric in ("success", second))  # fmt: skip
+            other = 100 - other if second == "collision" else other
+            points[display_name(str(case["method"]))] = (success, other)
+    names, xy = list(points), np.array(list(points.values()))
+    above = (xy[None] > xy[:, None]).all(axis=-1)  # above[i, j]: j is better than i
+    front = [name for name, row in zip(names, above, strict=True) if not row.any()]
+    chosen = names.index(shown.chosen("method"))
+    better = [name for name, yes in zip(names, above[chosen], strict=True) if yes]
+    shown.says(
+        f"{names[chosen]}: {xy[chosen, 0]:.9f} % arrive",
+        f"Better in both: {', '.join(better)}."
+        if better
+        else f"No method is better than {names[chosen]} in both.",
+        f"Not beaten by any: {', '.join(front)}.",
+    )
+    chart = shown.picture()
+    chart.has_dots(BLUE, xy[[names.index(name) for name in front]])
+    chart.has_dots(VERMILION, xy[[chosen]])

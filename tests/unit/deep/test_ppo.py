@@ -221,6 +221,11 @@ def test_twin_equal_to_readable_function(seed):
     readable = ppo(envs, start, seed=seed, **settings)
     twin = train_ppo([3, seed], task=task, actors=3, hidden=(9, 6), **settings)
     assert twin.ended[1].sum() > 3
+    assert_same_networks(readable, twin)
+
+
+def assert_same_networks(readable, twin):
+    """The second seed of the twin has the networks of the readable function."""
     for one, several in ((readable.policy, twin.policy), (readable.value, twin.value)):
         pairs = zip(
             (*one.weights, *one.biases),
@@ -229,6 +234,19 @@ def test_twin_equal_to_readable_function(seed):
         )
         for expected, found in pairs:
             np.testing.assert_allclose(found[1], expected, rtol=1e-8, atol=1e-8)
+
+
+def test_training_goes_on_in_other_worlds():
+    settings = {"updates": 2, "steps": 40, "epochs": 2, "batches": 3}
+    stages = [navigation_task(max_steps=60), navigation_task(obstacles=30, moving=2)]
+    readable = actor_critic(stages[0].environment(), hidden=(9,), seed=5)
+    twin = None
+    for number, task in enumerate(stages):
+        envs, seed = [task.environment() for _ in range(3)], 5 + 100 * number
+        readable = ppo(envs, readable, seed=seed, **settings)
+        twin = train_ppo([3, seed], task=task, actors=3, hidden=(9,), start=twin, **settings)  # fmt: skip
+    assert_same_networks(readable, twin)
+    assert twin.settings["hidden"] == (9,)
 
 
 class Corridor(gymnasium.Env):
@@ -313,6 +331,8 @@ def test_progress_is_reported():
         (lambda: train_ppo(clip=1.0), ValueError, "clip must be greater than 0 and less than 1"),
         (lambda: train_ppo(batches=5000), ValueError, "batches must be at most 2048"),
         (lambda: train_ppo(step=3), TypeError, "the settings are steps, .*, got step"),
+        (lambda: train_ppo(2, 1, start=train_ppo(1, 1, actors=2, steps=4)), ValueError, "start must be .* of 2 seeds"),
+        (lambda: train_ppo(1, 1, start=3), TypeError, "start must be PPOResult, got int"),
         (lambda: train_ppo(hidden=32), TypeError, "hidden must be a sequence of whole numbers, got 32"),
         (lambda: train_ppo(task=3), TypeError, "task must be NavigationTask, got int"),
         (lambda: actor_critic(gymnasium.make("Pendulum-v1"), seed=0), TypeError, "must be discrete"),

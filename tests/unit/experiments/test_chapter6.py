@@ -2,6 +2,7 @@
 
 import functools
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,8 +12,11 @@ import pytest
 from robonav.benchmark import method
 from robonav.deep import constant_reward, navigation_task, train_gail, train_ppo
 from robonav.experiments import read_results
+from robonav.experiments.chapter3 import setup as chapter3
+from robonav.experiments.chapter4 import setup as chapter4
 from robonav.experiments.chapter4 import tuning as learners
-from robonav.experiments.chapter6 import gail, planners, ppo, tuning
+from robonav.experiments.chapter5 import setup as chapter5
+from robonav.experiments.chapter6 import curriculum, gail, planners, ppo, tuning
 from robonav.experiments.chapter6.setup import PLANNERS, SETUP, planner, tuned
 from robonav.experiments.ship import SEEDS_6, folder_of, ppo_weights
 from robonav.networks import load_weights
@@ -330,3 +334,54 @@ def test_what_the_page_says_about_randomised_training():
     for metric in ("success", "1 m, 0.4", "3 m, 0.8"):
         exact, randomised = (results.summary(metric, case).mean for case in (0, 1))
         assert randomised <= exact
+
+
+def test_a_stage_goes_on_with_the_networks_of_the_one_before(monkeypatch):
+    monkeypatch.setattr(curriculum, "SEEDS", {"quick": 2})
+    monkeypatch.setitem(curriculum.SETUP.navigations, "quick", 4)
+    one, two = list(curriculum.STAGES)[:2]
+    first = curriculum.trained(one, (0, 1), "quick")
+    worlds, settings = curriculum.STAGES[two]
+    alone = train_ppo(
+        [1000, 1001], 2, actors=settings["actors"], start=first,
+        task=navigation_task(speed=2.0, reflex=Reflex("exact"), **worlds),
+    )  # fmt: skip
+    numbers = curriculum.run({"stage": two, "setting": "30 obstacles"}, 1, "quick")
+    tested = curriculum.SETUP.test_worlds(1, "quick", obstacles=30)
+    assert numbers == curriculum.SETUP.evaluate(alone.policies[1], tested)
+
+
+def after(stage, setting, metric="success"):
+    results = published("ppo-curriculum")
+    case = {"stage": list(curriculum.STAGES)[stage - 1], "setting": setting}
+    return results.summary(metric, list(results.experiment.cases).index(case))
+
+
+def test_what_the_page_says_about_a_longer_training():
+    """More than 99 % among 20 obstacles, 95 % among 30, and 97 % where ten of twenty move."""
+    for setting, least in (("20 obstacles", 99), ("30 obstacles", 95), ("10 and 10 moving", 97)):  # fmt: skip
+        gains = np.diff([after(stage, setting).mean for stage in (1, 2, 3, 4)])
+        assert gains[0] == max(gains)
+        assert after(4, setting).low > least
+    assert len(published("ppo-curriculum").values("success", 0)) == 10
+    assert curriculum.SETUP.navigations["thesis"] == 1000
+
+
+COMPARED = Path(__file__).parents[3] / "book/methods-compared.md"
+
+
+def test_the_data_of_the_methods_on_the_page_that_compares_them():
+    source = COMPARED.read_text("utf-8")
+    maps = chapter3.DEMONSTRATIONS
+    assert f"| cloning | {maps} demonstrations |" in source
+    every = maps * (1 + chapter3.ROUNDS)
+    assert f"labels states of {every} episodes | – | {every - maps} |" in source
+    for name in ("NNQL", "DQN"):
+        assert f"| {name} | – | in each step | {chapter4.EPISODES} |" in source
+    own = chapter5.ITERATIONS * chapter5.EPISODES_PER_ITERATION
+    assert f"| NIRL | {chapter5.DEMONSTRATIONS} demonstrations | learned | {own:,} |" in source  # fmt: skip
+    assert (
+        "| GAIL | 10 demonstrations | learned | about 1,270 |" in source
+    )  # seed 0: 1,266
+    for number, (_, settings) in enumerate(curriculum.STAGES.values(), start=1):
+        assert re.search(rf"^{number}\. .*\b{settings['updates']['thesis']} updates", source, re.M)  # fmt: skip

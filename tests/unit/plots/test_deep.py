@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from robonav.experiments import bootstrap_interval
+from robonav.experiments import bootstrap_interval, read_results
 from robonav.plots import deep as draw
 
 
@@ -34,3 +34,15 @@ def test_arrivals_have_the_mean_and_its_interval(axes):
     for k in range(3):
         at = band[np.isclose(band[:, 0], 0.5 * (k + 1)), 1]
         assert (at.min(), at.max()) == pytest.approx(bootstrap_interval(runs[:, k]))
+
+
+def test_failures_are_what_success_leaves(axes):
+    results = read_results("ppo-curriculum")
+    draw.draw_failures(axes, results, steps="stage", lines="setting")
+    drawn = {one.get_label(): one for one in axes.containers}
+    for place, case in enumerate(results.experiment.cases):
+        data, _, (bars,) = drawn[case["setting"]].lines
+        summary, at = results.summary("success", place), int(case["stage"][0]) - 1
+        assert data.get_ydata()[at] == pytest.approx(100 - summary.mean)
+        ends = bars.get_segments()[at][:, 1]
+        assert sorted(ends) == pytest.approx([100 - summary.high, 100 - summary.low])

@@ -1,0 +1,86 @@
+"""PPO goes on to learn, stage by stage: longer, in harder worlds, and then with smaller steps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from robonav.deep import PPOResult, navigation_task, train_ppo
+from robonav.nnql import NavigationTask
+
+from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers
+from ..runner.setup import Setup
+from .setup import CONDITIONS
+
+SETUP = Setup(**CONDITIONS["curriculum"])
+HARD = {"obstacles": 30, "moving": 6}
+STAGES: Mapping[str, tuple[Mapping[str, int], Mapping[str, Any]]] = {
+    "1. ten obstacles": ({"obstacles": 10}, CONDITIONS["curriculum-1"]),
+    "2. longer, in hard worlds": (HARD, CONDITIONS["curriculum-2"]),
+    "3. smaller steps": (HARD, CONDITIONS["curriculum-3"]),
+    "4. smaller still": (HARD, CONDITIONS["curriculum-4"]),
+}
+"""The worlds of each stage, and its settings. A stage goes on with the networks of the stage before."""
+
+HIDDEN = (64,)
+SEEDS = {"quick": 1, "thesis": 10}
+SEEDS_APART = 1000  # between two stages, so that a robot meets other worlds in each
+
+SETTINGS: Mapping[str, Mapping[str, int]] = {
+    "20 obstacles": {"obstacles": 20},
+    "30 obstacles": {"obstacles": 30},
+    "10 and 10 moving": {"obstacles": 10, "moving": 10},
+}
+"""The worlds of the tests."""
+
+
+def task(worlds: Mapping[str, int]) -> NavigationTask:
+    """Return what a stage trains on."""
+    return navigation_task(speed=SETUP.speed, reflex=SETUP.reflex, **worlds)
+
+
+@cache
+def trained(stage: str, seeds: tuple[int, ...], scale: str) -> PPOResult:
+    """Train some seeds at once up to the end of a stage; a seed trains as it would alone."""
+    number = list(STAGES).index(stage)
+    before = list(STAGES)[:number]
+    start = trained(before[-1], seeds, scale) if before else None
+    worlds, settings = STAGES[stage]
+    updates = settings["updates"][scale]
+    return train_ppo(
+        [seed + SEEDS_APART * number for seed in seeds],
+        task=task(worlds), hidden=HIDDEN, start=start, **{**settings, "updates": updates},
+    )  # fmt: skip
+
+
+def run(case: Case, seed: int, scale: str) -> Numbers:
+    """Test one seed after one stage in new worlds."""
+    result = trained(str(case["stage"]), tuple(range(SEEDS[scale])), scale)
+    worlds = SETUP.test_worlds(seed, scale, **SETTINGS[str(case["setting"])])
+    return SETUP.evaluate(result.policies[seed], worlds)
+
+
+EXPERIMENTS = (
+    Experiment(
+        name="ppo-curriculum",
+        title="Success of PPO that goes on to learn in harder worlds",
+        cases=[
+            {"stage": stage, "setting": setting}
+            for stage in STAGES
+            for setting in SETTINGS
+        ],
+        run=run,
+        seeds=SEEDS,
+        settings={
+            "navigations a run": SETUP.navigations,
+            "hidden units": list(HIDDEN),
+            "stages": {
+                stage: {"worlds": dict(worlds), **settings}
+                for stage, (worlds, settings) in STAGES.items()
+            },
+        },
+        note="A stage goes on with the networks of the stage before. Nine sensors, no map, 2 m/s.",
+        plot=SUCCESS_BARS,
+    ),
+)
