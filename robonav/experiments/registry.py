@@ -27,6 +27,7 @@ MODULES = (
     "chapter6.sensing",
     "chapter6.gail",
     "chapter6.team",
+    "chapter6.body",
     "single_runs",
     "leaderboard",
     "labs",

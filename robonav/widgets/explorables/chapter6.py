@@ -210,3 +210,20 @@ def ring_and_picture() -> dict[str, Any]:
 def two_criteria(methods: Sequence[Mapping[str, Any]] = EXAMPLE) -> dict[str, Any]:
     """The criteria of each method by the number of obstacles, in per cent."""
     return {"worlds": list(methods[0]["values"]), "methods": list(methods)}
+
+
+@asks(
+    "Three wheels, three directions",
+    "The base drives straight ahead. One of its wheels is ahead to the left, one behind, one ahead to the right. "
+    "How do they turn?",
+    guesses=[
+        "all three equally fast",
+        "the one behind drives, and the other two roll along",
+        "the two ahead drive in opposite senses, and the one behind stands still",
+    ],
+    right="the two ahead drive in opposite senses, and the one behind stands still",
+    because="The wheel behind rolls sideways only, so its rollers turn; the two ahead push forward from both sides.",
+)
+def three_wheels() -> dict[str, Any]:
+    """The motion with which it begins: the base stands still."""
+    return {"forward": 0.0, "left": 0.0, "turn": 0.0}

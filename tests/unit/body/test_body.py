@@ -1,5 +1,7 @@
 """A robot with a body: it goes where the simulator says, and its range finders read what the simulator's sectors do."""
 
+import time
+
 import mujoco
 import numpy as np
 import pytest
@@ -279,3 +281,12 @@ def test_the_leash_holds():
 def test_a_wrong_body_gets_one_clear_sentence(settings, message):
     with pytest.raises(ValueError, match=message):
         Body(**settings)
+
+
+def test_a_core_drives_twenty_times_as_fast_as_real_time():
+    simulator = BodySimulator(random_worlds(2, obstacles=20, seed=14))
+    before = time.process_time()
+    for _ in range(10):
+        simulator.sense()
+        simulator.step(np.zeros(2, dtype=np.int64))
+    assert simulator.steps.sum() > 20 * (time.process_time() - before)

@@ -380,3 +380,50 @@ def test_price_of_randomising_by_counting_a_thousand_drives() -> None:
         failed = set(range(plain_noisy, 1000))
         left = set(range(noisy, 1000))
         assert avoided == pytest.approx(100 * len(failed - left) / len(failed))
+
+
+def test_speed_of_a_wheel_by_complex_numbers() -> None:
+    for question in drawn("speed-of-a-wheel"):
+        degrees, forward, left, turn = numbers(question.text)[2:6]
+        along = 1j * np.exp(1j * np.radians(degrees))
+        moves = complex(forward, left) + turn * 0.7 * along
+        rim = (moves * along.conjugate()).real
+        assert question.asked.answer == pytest.approx(rim / 0.2)
+
+
+def test_error_of_odometry_second_by_second() -> None:
+    for question in drawn("error-of-odometry"):
+        speed, seconds, share = numbers(question.text)[:3]
+        believed = sum(speed for _ in range(int(seconds)))
+        driven = sum(speed * (1 - share / 100) for _ in range(int(seconds)))
+        assert question.asked.answer == pytest.approx(believed - driven)
+
+
+def test_push_of_a_wheel_by_the_limit_that_counts() -> None:
+    for question in drawn("push-of-a-wheel"):
+        torque, radius, load, friction = numbers(question.text)[:4]
+        slips = torque > friction * load * radius
+        assert question.asked.answer == pytest.approx(
+            friction * load if slips else torque / radius
+        )
+        assert question.explanation.endswith(
+            "so the wheel slips." if slips else "so the wheel does not slip."
+        )
+
+
+def test_seconds_to_turn_around_by_small_steps() -> None:
+    for question in drawn("seconds-to-turn-around"):
+        speed, friction = numbers(question.text)[:2]
+        steps = np.arange(0, 20, 1e-4)
+        speeds = speed - friction * 9.81 * steps
+        assert question.asked.answer == pytest.approx(
+            steps[np.argmax(speeds <= -speed)], abs=2e-4
+        )
+
+
+def test_what_randomisation_brings_back_in_a_hundred_worlds() -> None:
+    for question in drawn("brought-back"):
+        simulator, plain, randomised = numbers(question.text)[:3]
+        lost = [world for world in range(100) if plain <= world < simulator]
+        back = [world for world in lost if world < randomised]
+        assert question.asked.answer == pytest.approx(100 * len(back) / len(lost))

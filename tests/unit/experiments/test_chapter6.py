@@ -16,7 +16,14 @@ from robonav.experiments.chapter3 import setup as chapter3
 from robonav.experiments.chapter4 import setup as chapter4
 from robonav.experiments.chapter4 import tuning as learners
 from robonav.experiments.chapter5 import setup as chapter5
-from robonav.experiments.chapter6 import curriculum, gail, planners, ppo, tuning
+from robonav.experiments.chapter6 import (
+    body,
+    curriculum,
+    gail,
+    planners,
+    ppo,
+    tuning,
+)
 from robonav.experiments.chapter6.setup import PLANNERS, SETUP, planner, tuned
 from robonav.experiments.ship import SEEDS_6, folder_of, ppo_weights
 from robonav.networks import load_weights
@@ -385,3 +392,38 @@ def test_the_data_of_the_methods_on_the_page_that_compares_them():
     )  # seed 0: 1,266
     for number, (_, settings) in enumerate(curriculum.STAGES.values(), start=1):
         assert re.search(rf"^{number}\. .*\b{settings['updates']['thesis']} updates", source, re.M)  # fmt: skip
+
+
+def of_body(metric, name="body", **wanted):
+    results = published(name)
+    place = list(results.experiment.cases).index(wanted)
+    return results.summary(metric, place).mean
+
+
+def test_what_the_page_says_about_a_body():
+    def lost(name, kind):
+        alone = of_body("success", method=name, body="none")
+        return alone - of_body("success", method=name, body=kind)
+
+    assert all(lost(name, "usual") < 10 for name in body.METHODS)
+    everything = {name: lost(name, "everything worse") for name in body.METHODS}
+    assert max(everything, key=everything.get) == "ppo"
+    assert min(everything, key=everything.get) == "lfd"
+    collided = {
+        kind: of_body("collision", method="ppo", body=kind) for kind in body.BODIES
+    }
+    assert collided["everything worse"] > collided["none"] + everything["ppo"]
+
+
+def test_what_the_page_says_about_randomised_training_for_a_body():
+    def of(metric, training, kind):
+        case = {"trained in": training, "body": kind}
+        return of_body(metric, "body-training", **case)
+
+    plain, randomised = body.TRAININGS
+    assert of("success", plain, "none") > 99
+    assert of("success", randomised, "none") > 99
+    everything = [of("success", kind, "everything worse") for kind in body.TRAININGS]
+    assert everything[1] > everything[0]
+    seconds = [of("seconds to the target", kind, "usual") for kind in body.TRAININGS]
+    assert seconds[1] > seconds[0]
