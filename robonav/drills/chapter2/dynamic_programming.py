@@ -68,7 +68,9 @@ def stopping_bound(rng: Rng) -> Question:
     model = mdp.FiniteMDP([[[1.0]]], [[1.0]], discount)
     answer = model.residual_for(loss)
     return Question(
-        f"Your policy may lose at most ${loss:g}$ in every state, and $\\gamma = {discount:g}$. "
+        "If the last sweep changed no value by more than $d$, the greedy policy loses at most "
+        "$\\frac{2 \\gamma}{1 - \\gamma} \\, d$ in every state. "
+        f"Your policy may lose at most ${loss:g}$, and $\\gamma = {discount:g}$. "
         "At which largest change of a sweep may value iteration stop? Give three decimals.",
         Number(
             answer,
@@ -108,7 +110,8 @@ def improved_cell(rng: Rng) -> Question | None:
     grid = _grid(rng)
     if grid is None:
         return None
-    model = grid.mdp(discount=0.9)
+    discount = 0.9  # with a discount of 1 a detour would cost nothing
+    model = grid.mdp(discount=discount)
     best = mdp.policy_iteration(model)
     q = model.action_values(best.values)
     greedy = mdp.greedy_actions(q)
@@ -127,9 +130,9 @@ def improved_cell(rng: Rng) -> Question | None:
     name = letters[changed]
     better = int(best.policy[changed])
     return Question(
-        "The goal G gives the reward 1 and ends the episode; steps never slip. One arrow of this "
-        "policy is not greedy "
-        "with respect to the optimal values. Which cell's arrow does an improvement change?",
+        f"The goal G gives the reward 1 and ends the episode; steps never slip, and $\\gamma = {discount:g}$. One "
+        "arrow of this policy is not greedy with respect to the optimal values. Which cell's arrow does an "
+        "improvement change?",
         Place(
             [*letters.values()],
             [name],

@@ -25,10 +25,12 @@ def two_bounds(rng: Rng) -> Question:
     error = float(rng.choice([0.001, 0.002, 0.003, 0.004, 0.005, 0.006, 0.008, 0.01, 0.015, 0.02]))  # fmt: skip
     own, expert = error * steps, error * steps**2
     return Question(
-        f"An episode has ${steps}$ steps, and each costs at most 1 more than the expert's. A policy takes another "
-        f"action than the expert with probability ${error:g}$. What is the bound on its additional cost, if this "
-        "probability was measured in the expert's states, and what if it holds in the policy's own states and each "
-        "error costs 1?",
+        "A policy takes another action than the expert with probability $\\varepsilon$, in episodes of $T$ steps. "
+        "Measured in the expert's states, this lets it cost at most $\\varepsilon T^2$ more than the expert, if a step "
+        "costs between 0 and 1. Measured in the policy's own states, it lets it cost at most $u \\varepsilon T$ more, "
+        f"if an error costs at most $u$. With $T = {steps}$ and $\\varepsilon = {error:g}$, what is the bound if the "
+        "probability was measured in the expert's states, and what if it was measured in the policy's own states and "
+        "$u = 1$?",
         Table(
             ["expert's states", "own states"],
             ["bound"],

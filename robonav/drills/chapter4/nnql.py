@@ -389,6 +389,18 @@ METHODS = {
 }
 
 
+LEARNS = {
+    "NNQL": "It begins each episode with an empty list of pairs, and trains the network by plain gradient steps.",
+    "online Q-learning": "It trains the network by plain gradient steps, each on the latest pair alone.",
+    "DQN": "It trains the network with Adam on batches from a replay memory, and takes the targets from a copy of the "
+    "network that is renewed now and then.",
+}
+EPISODES = (
+    "Each robot's seed and all settings are known. From a robot's seed and the number of an episode follow the map of "
+    "the episode, its random numbers, which begin anew in each episode, and how much the robot explores in it."
+)
+
+
 @drill("nnql", "What must a checkpoint hold?")
 def what_a_checkpoint_holds(rng: Rng) -> Question:
     """Tell what has to be saved between two episodes so that a training continues as if never interrupted."""
@@ -402,7 +414,7 @@ def what_a_checkpoint_holds(rng: Rng) -> Question:
     others = [str(name) for name in rng.permutation([*bad])[:3]]
     return Question(
         f"A training of {seeds} robots with {method} is saved after {episodes} episodes and continued later, as if it "
-        "had never been interrupted. Its seeds and settings are known. Which of these "
+        f"had never been interrupted. {LEARNS[method]} {EPISODES} Which of these "
         f"{'has to be' if is_needed else 'need not be'} in the file?",
         Choice(right, {name: bad[name] for name in others}),
         good[right],

@@ -180,6 +180,12 @@ OPEN = {
 }
 
 
+WHERE_GIVEN = (
+    "You need to know what the thesis states: the table of its settings on the page of NIRL says so, and the page "
+    "*Why learn the reward?* of the demonstrations."
+)
+
+
 @drill("nirl", "What does the thesis leave open?")
 def left_open(rng: Rng) -> Question:
     """Tell which settings of NIRL the thesis does not give."""
@@ -207,8 +213,8 @@ def left_open(rng: Rng) -> Question:
         )
     )
     return Question(
-        f"A repetition of the thesis's NIRL uses these settings. {listed[0].upper()}{listed[1:]}. Which of "
-        f"them {asks}?",
+        f"A repetition of the thesis's NIRL uses these settings. {listed[0].upper()}{listed[1:]}. {WHERE_GIVEN} Which "
+        f"of them {asks}?",
         Choice(right, hints),
         why,
     )

@@ -64,6 +64,11 @@ def chosen_among_those_before(*case):
     return _step(*case, candidates=case[1])
 
 
+def chosen_below_the_high_threshold(*case):
+    """A bin below the high threshold may still be blocked from before: it is no candidate, since it is not free."""
+    return _step(*case, candidates=case[0] >= case[3])
+
+
 def not_round_the_circle(*case):
     """The bins go round the circle: from bin 0 to the last bin it is one step."""
     return _step(*case, around=False)

@@ -219,6 +219,14 @@ def no_force_at_the_edge(place, target, circles, *others):
         return _both(place, target, circles * shrunk, *others)
 
 
+def no_force_inside(place, target, circles, *others):
+    """Inside a circle the robot is pushed, too, away from the middle: there rho is 0.1 m."""
+    away = np.hypot(*(place - circles[:, :2]).T) - circles[:, 2]
+    shrunk = np.where(away[:, None] < 0, np.array([1.0, 1.0, -np.inf]), 1.0)
+    with np.errstate(all="ignore"):
+        return _both(place, target, circles * shrunk, *others)
+
+
 def pushed_at_an_edge_not_inside(place, target, circles, *others):
     """Inside a circle rho is 0.1 m, too, and not the negative distance."""
     away = np.hypot(*(place - circles[:, :2]).T) - circles[:, 2]

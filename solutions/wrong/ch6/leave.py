@@ -125,6 +125,12 @@ def nearer_before_the_step(*case):
     return _first(_leaves(*case, near=away[:-1] < away[0]))
 
 
+def nearer_at_one_end_of_the_step(*case):
+    """The place after the step must be nearer to the target; it does not help that the place before it was."""
+    away = _away(case[0], case[3])
+    return _first(_leaves(*case, near=np.minimum(away[1:], away[:-1]) < away[0]))
+
+
 def nearer_than_all_before(*case):
     """The place must be nearer than where it met the obstacle, but not nearer than all places since then."""
     away = _away(case[0], case[3])

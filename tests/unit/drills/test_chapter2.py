@@ -49,7 +49,8 @@ def test_bellman_backup() -> None:
 
 def test_stopping_bound() -> None:
     for question in drawn("stopping-bound"):
-        loss, discount = numbers(question.text)
+        assert r"$\frac{2 \gamma}{1 - \gamma} \, d$" in question.text  # the theorem
+        loss, discount = numbers(question.text)[-2:]
         change = question.asked.answer
         assert 2 * discount / (1 - discount) * change == pytest.approx(loss)
 
@@ -93,6 +94,7 @@ def test_the_improved_cell_points_away_from_the_shortest_path() -> None:
             if steps.get((i + down, j + right), 99) != steps[i, j] - 1
         ]
         assert wrong == list(question.asked.right)
+        assert 0 < float(re.search(r"\\gamma = ([\d.]+)", question.text)[1]) < 1
 
 
 def test_a_run_of_policy_iteration_line_by_line() -> None:

@@ -169,7 +169,9 @@ def test_penalty() -> None:
 
 def test_two_bounds() -> None:
     for question in drawn("two-bounds"):
-        steps, _, error, _ = numbers(question.text)
+        assert all(f"${b}$" in question.text for b in (r"\varepsilon T^2", r"u \varepsilon T"))  # fmt: skip
+        steps, error, cost = numbers(question.text)[-3:]
+        assert cost == 1
         expected = [sum([error] * int(steps)) * steps, sum([error] * int(steps))]
         assert np.ravel(question.asked.answer) == pytest.approx(expected)
 

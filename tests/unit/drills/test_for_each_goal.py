@@ -148,6 +148,7 @@ def test_left_open_is_what_the_page_s_table_says() -> None:
     rows |= {"demonstrations": "30", "obstacles": "not said"}
     names |= {"of obstacles": "obstacles", "of demonstrations": "demonstrations"}
     for question in drawn("left-open"):
+        assert "what the thesis states: the table" in question.text
         wanted = "the thesis does not give" in question.text
         for option in question.asked.options:
             row = next(rows[full] for word, full in names.items() if word in option)
@@ -207,7 +208,20 @@ def test_a_run_of_an_episode_line_by_line() -> None:
 
 def test_what_a_checkpoint_holds() -> None:
     learned = re.compile("weights of the|number of episodes|replay|Adam")
+    given = {
+        "the random numbers drawn": "its random numbers, which begin anew",
+        "how much the robot explored": "how much the robot explores",
+        "the maps of": "the map of the episode",
+        "Adam": "with Adam",
+        "replay memory": "from a replay memory",
+        "target network": "from a copy of the network",
+        "pairs of the last": "an empty list of pairs",
+    }
     for question in drawn("what-a-checkpoint-holds"):
+        for part, said in given.items():
+            if any(part in option for option in question.asked.options):
+                online = part == "pairs of the last" and "online" in question.text
+                assert ("the latest pair alone" if online else said) in question.text
         for option in question.asked.options:
             wanted = ("has to be" in question.text) == bool(learned.search(option))
             assert wanted == (option == question.asked.right)
