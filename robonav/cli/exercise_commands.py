@@ -93,12 +93,28 @@ def _build_variant(
 @exercises.command("zip")
 def exercises_zip(
     path: Annotated[Path, typer.Argument(help="The zip file to write.")],
+    only: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="An exercise such as 3.2, or a chapter such as 3, to put into the file. May be repeated. The default "
+            "is all of them."
+        ),
+    ] = None,
 ) -> None:
     """Write a zip file for students: stubs, notebooks and tests, without the solutions."""
+    from tempfile import TemporaryDirectory
+
     from robonav.grading.build import students_zip
     from robonav.grading.course import Course
+    from robonav.grading.variants import write_some
 
-    students_zip(Course.around(Path.cwd()), path)
+    course = Course.around(Path.cwd())
+    if not only:
+        students_zip(course, path)
+        return
+    wanted = [exercise for key in only for exercise in course.selected(key)]
+    with TemporaryDirectory() as folder:
+        students_zip(write_some(course, wanted, Path(folder)), path)
 
 
 @exercises.command("nbgrader")

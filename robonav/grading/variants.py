@@ -22,7 +22,7 @@ import re
 import shutil
 import textwrap
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -469,24 +469,43 @@ def write_values(course: Course, values: Mapping[str, Values], out: Path) -> Cou
         shutil.rmtree(out / folder, ignore_errors=True)
     out.mkdir(parents=True, exist_ok=True)
     write_text(out / MARK, json.dumps(values, indent=1) + "\n")
-    for name, text in _files(course, values):
-        (out / name).parent.mkdir(parents=True, exist_ok=True)
-        (out / name).write_text(text, "utf-8", newline="\n")
-    variant = Course(out.resolve())
-    build(variant)
-    return variant
-
-
-def _files(course: Course, values: Mapping[str, Values]) -> Iterator[tuple[str, str]]:
-    """Yield the files that a variant is made from, all but the generated ones, by their path."""
-    yield "tests/exercises/pytest.ini", (course.tests / "pytest.ini").read_text("utf-8")
-    head, *entries = (
-        (course.tests / "manifest.toml").read_text("utf-8").split("[[exercise]]")
-    )
     made = {
         id: rendered(course, course.exercises[id], chosen)
         for id, chosen in values.items()
     }
+    variant = _written(course, made, out)
+    build(variant)
+    return variant
+
+
+def write_some(course: Course, wanted: Iterable[Exercise], out: Path) -> Course:
+    """Write a course with some of a course's exercises into a new folder, as they are, and return it.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> course = Course.around()
+    >>> with TemporaryDirectory() as folder:
+    ...     list(write_some(course, course.selected("2.2"), Path(folder)).exercises)
+    ['2.2']
+    """
+    return _written(course, {one.id: texts(course, one) for one in wanted}, out)
+
+
+def _written(course: Course, made: Mapping[str, Texts], out: Path) -> Course:
+    """Write what a course with these texts is made from into a folder, and return it."""
+    for name, text in _files(course, made):
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        (out / name).write_text(text, "utf-8", newline="\n")
+    return Course(out.resolve())
+
+
+def _files(course: Course, made: Mapping[str, Texts]) -> Iterator[tuple[str, str]]:
+    """Yield the files that a course with these texts is made from, all but the generated ones, by their path."""
+    yield "tests/exercises/pytest.ini", (course.tests / "pytest.ini").read_text("utf-8")
+    head, *entries = (
+        (course.tests / "manifest.toml").read_text("utf-8").split("[[exercise]]")
+    )
     kept = []
     for entry in entries:
         if (id := tomllib.loads(entry)["id"]) in made:

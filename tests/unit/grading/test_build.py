@@ -180,6 +180,42 @@ def test_building_writes_what_differs_and_removes_what_has_no_source(tmp_path):
     assert not (tmp_path / "exercises/ch2/old.py").exists()
 
 
+def test_a_zip_of_a_week_holds_its_exercises_alone(tmp_path):
+    def robonav(*arguments, cwd):
+        return subprocess.run(
+            [ROBONAV, *arguments], cwd=cwd, capture_output=True, text=True, timeout=120
+        )
+
+    path, home = tmp_path / "week.zip", tmp_path / "robonav-exercises"
+    only = ("exercises", "zip", path, "--only")
+    refused = robonav(*only, "2.2", "--only", "9.9", cwd=COURSE.root)
+    assert refused.returncode != 0
+    assert "no exercise '9.9'" in " ".join(refused.stderr.split())
+    assert not path.exists()
+    made = robonav(*only, "2.2", "--only", "6.3", cwd=COURSE.root)
+    assert made.returncode == 0, made.stderr
+    with zipfile.ZipFile(path) as archive:
+        archive.extractall(tmp_path)
+    found = {p.relative_to(home).as_posix() for p in home.rglob("*") if p.is_file()}
+    assert found == {
+        "exercises/README.md",
+        *("exercises/ch2.ipynb", "exercises/ch2/improve.py"),
+        *("exercises/ch6.ipynb", "exercises/ch6/leave.py"),
+        *("tests/exercises/manifest.toml", "tests/exercises/pytest.ini"),
+        *("tests/exercises/test_ch2.py", "tests/exercises/test_ch6.py"),
+        "tests/exercises/recorded/improve.frame",
+        "tests/exercises/recorded/leave.frame",
+    }
+    for name in ("ch2/improve.py", "ch6/leave.py"):
+        stub = (home / "exercises" / name).read_text("utf-8")
+        assert stub == (COURSE.stubs / name).read_text("utf-8")
+        answer = (COURSE.solutions / name).read_text("utf-8")
+        (home / "exercises" / name).write_text(answer, "utf-8")
+    checked = robonav("check", cwd=home)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    assert "Total: 8 of 8 points" in checked.stdout
+
+
 @pytest.mark.slow
 def test_a_student_with_the_zip_alone_checks_an_answer(tmp_path):
     build.students_zip(COURSE, tmp_path / "students.zip")
