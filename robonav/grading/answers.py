@@ -1,7 +1,8 @@
 """Find the file of a submission that answers an exercise, and run it as a module. This file runs in the sandbox.
 
 The function ``improve`` of chapter 2 is taken from the first of these that defines it: ``ch2/improve.py``, another
-``improve.py``, a notebook, any other Python file. A function that was handed out and not changed is not an answer.
+``improve.py``, a notebook, any other Python file. A function that was handed out and not changed is not an answer, and
+neither is an empty file.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ def find(folder: Path, chapter: str, name: str) -> Found:
             return Found(where, origins.get(where, where))
         if state == "unwritten":
             unwritten = unwritten or where
-        elif _is_named(path, name):
+        elif _is_named(path, name) and not _is_empty(path):
             without = without or where
     if without:  # running it may define the function, or tells what is wrong
         return Found(without, origins.get(without, without))
@@ -81,6 +82,19 @@ def load(folder: Path, where: str, name: str) -> types.ModuleType:
     sys.path += [str(path.parent), str(folder)]
     exec(compile(tree, str(path), "exec"), module.__dict__)
     return module
+
+
+def damaged(folder: Path) -> list[str]:
+    """Return the names of the notebooks in a folder that cannot be read, as one of which a part is missing."""
+    found = []
+    for path in sorted(folder.rglob("*.ipynb")):
+        try:
+            notebook.sources(path.read_bytes())
+        except ValueError:
+            found.append(str(path.relative_to(folder)))
+        except (OSError, MemoryError):  # nothing is known of it
+            continue
+    return found
 
 
 def modules_of_cells(contents: Iterable[bytes]) -> set[str]:
@@ -125,6 +139,15 @@ def _candidates(folder: Path, chapter: str, name: str) -> list[Path]:
 
 def _is_named(path: Path, name: str) -> bool:
     return path.suffix == ".py" and path.stem.casefold() == name
+
+
+def _is_empty(path: Path) -> bool:
+    """Whether a Python file has no statement: it is blank, or has only comments and a docstring."""
+    statements = ast.parse(path.read_bytes()).body
+    return not any(
+        not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant))
+        for node in statements
+    )
 
 
 def _cells(path: Path) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -104,12 +104,29 @@ def remarks(loaded: Submission | Refused, session: Session) -> dict[str, Any]:
     """
     if isinstance(loaded, Refused):
         return {"files": {}, "notes": [], "problems": [str(loaded)]}
-    problems = list(loaded.problems)
-    if loaded.files and not session.found and not session.unwritten:
-        names = ", ".join(sorted(loaded.files)[:5])
-        problems.append(f"no function of an exercise was found in {names}")
+    problems = [
+        *loaded.problems,
+        *(f"{name} is not a complete notebook" for name in sorted(session.damaged)),
+    ]
+    whole = {n: file for n, file in loaded.files.items() if n not in session.damaged}
+    if whole and not session.found and not session.unwritten:
+        problems += _without_functions(whole)
     files = dict(sorted(session.found.items()))
     return {"files": files, "notes": list(loaded.notes), "problems": problems}
+
+
+def _without_functions(files: Mapping[str, bytes]) -> list[str]:
+    """Say of files in which no function of an exercise was found whether they are empty."""
+    empty = sorted(name for name, content in files.items() if not content.strip())
+    others = sorted(set(files) - set(empty))
+    said = []
+    if empty:
+        are = "is" if len(empty) == 1 else "are"
+        said.append(f"{', '.join(empty[:5])} {are} empty")
+    if others:
+        names = ", ".join(others[:5])
+        said.append(f"no function of an exercise was found in {names}")
+    return said
 
 
 def graded(

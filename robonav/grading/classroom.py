@@ -35,6 +35,8 @@ from .evidence import Evidence
 from .grade import fault_grade, grade
 from .layouts import Handin, handed_in, on_times, passed_over
 from .reference import reference
+from .roster import fitting, match, read_roster
+from .rules import Rules, read_rules
 from .session import Session
 from .submission import Refused, Submission
 from .variants import EachStudent
@@ -147,6 +149,7 @@ def grade_class(
     scheduler: str | None = None,
     progress: Progress | None = None,
     new_secret: bool = False,
+    roster: Path | None = None,
 ) -> list[str]:
     """Grade every submission in ``folder`` that is not graded yet, and write all reports to ``out``.
 
@@ -170,6 +173,8 @@ def grade_class(
         Called as ``progress(done, total)``.
     new_secret : bool
         Whether a class that was graded with another secret is graded again with this one.
+    roster : Path, optional
+        The roster, which may tell when submissions were handed in.
 
     Returns
     -------
@@ -191,6 +196,7 @@ def grade_class(
     for name in set(again) - set(submissions):
         raise ValueError(f"no submission of {name} in {folder}")
     _check_course(config.course, folder)
+    known = _with_time(submissions, roster, read_rules(out, config.course))
     with paths.without_submissions(folder), _locked(out):
         atomic.remove_partial_files(out)
         _remember(out, config, new_secret)
@@ -210,8 +216,26 @@ def grade_class(
             list(submissions),
             passed_over(folder),
             config.course,
-            on_times(submissions),
+            on_times(submissions, known),
         )
+
+
+def _with_time(
+    submissions: Mapping[str, Handin], roster: Path | None, rules: Rules
+) -> set[str]:
+    """Return the submissions of which the roster or the rules tell the time."""
+    known = set(rules.submitted)
+    if roster is None:
+        return known
+    students = read_roster(roster, rules.teams)
+    decided = {
+        name: fits[0].id if len(fits := fitting(students, word)) == 1 else word
+        for name, word in rules.matches.items()
+    }
+    people = {name: handin.people for name, handin in submissions.items()}
+    theirs = match(students, people, decided, {}).submissions
+    timed = {one.id for one in students if rules.time(one.submitted) is not None}
+    return known | {name for id, name in theirs.items() if id in timed}
 
 
 def _to_grade(

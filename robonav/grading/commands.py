@@ -119,6 +119,7 @@ def grade(
 
     from . import paths
     from .classroom import grade_class
+    from .gradebook import ROSTER
 
     course, each = class_course(folder, out, variant, each_student=each_student)
     check_roster_and_rules(out, roster, course)  # before the work, not after it
@@ -135,6 +136,7 @@ def grade(
             scheduler=scheduler,
             progress=report,
             new_secret=new_secret,
+            roster=roster or next(out.glob(ROSTER), None),
         )
     if roster is not None:
         keep_roster(out, roster)

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter, defaultdict
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -137,14 +137,17 @@ def _handin(parts: list[_Part]) -> Handin:
     return handin
 
 
-def on_times(handins: Mapping[str, Handin]) -> list[str]:
+def on_times(handins: Mapping[str, Handin], known: Collection[str] = ()) -> list[str]:
     """Say what the names of the files tell about when submissions were handed in, where it is not a time.
+
+    Nothing is said of the submissions ``known``, of which the roster or the rules tell the time.
 
     Examples
     --------
     >>> on_times({"ada": Handin(platform="Canvas"), "bo": Handin(submitted="2026-10-12-22-14-00")})
     ["Canvas's names tell no time: the submission without _LATE_ in its name counts as handed in by the deadline."]
     """
+    handins = {name: one for name, one in handins.items() if name not in known}
     canvas = {name: one for name, one in handins.items() if one.platform == CANVAS}
     late = [name for name, one in canvas.items() if one.late and not one.submitted]
     untold = [n for n, one in handins.items() if not one.submitted and n not in canvas]

@@ -77,6 +77,8 @@ class Session:
         self._failed: dict[str, Unaccepted] = {}
         self.found: dict[str, str] = {}  # the file with the answer, by exercise
         self.unwritten: set[str] = set()  # exercises whose function is as handed out
+        self.damaged: set[str] = set()  # notebooks that cannot be read
+        self._opened = False  # whether these are known
         self._looked = False
         self._left: dict[str, float] = {}  # seconds by exercise
         self._asked = 0
@@ -132,13 +134,22 @@ class Session:
 
     def _load(self, exercise: Exercise) -> None:
         path = self._find(exercise)
-        self._ask(exercise, {"do": "load", "path": path, "name": exercise.name})
+        request = {"do": "load", "path": path, "name": exercise.name}
+        if self._ask(exercise, request) is not True:
+            self.found.pop(exercise.id, None)
+            raise Unaccepted("error", f"{path} defines no {exercise.name}.")
 
     def _find(self, exercise: Exercise) -> str:
         """Return the path of the file with the answer, and note which file of the submission it is."""
         if self._worker is None:
             self._worker = self._start()
         self._serving = exercise
+        if not self._opened:  # before any of the student's code runs
+            self._opened = True
+            match self._ask(exercise, {"do": "damaged"}):
+                case [*names]:
+                    told = {name for name in names if isinstance(name, str)}
+                    self.damaged = told & set(self._files)
         request = {"do": "find", "chapter": exercise.chapter, "name": exercise.name}
         match self._ask(exercise, request):
             case {"path": "", "unwritten": str(unwritten)}:

@@ -1,10 +1,10 @@
 """The worker runs a student's code in the sandbox. It answers each of the grader's requests with one frame.
 
 The grader sends the submission's files once, and the worker says ``ready``. Then, for each exercise, the grader asks
-to ``find`` a function, to ``load`` it, to ``call`` it any number of times, and to ``end``. Each exercise gets a fresh
-copy of the files in its own folder and, where the system can fork, its own child process. A child that crashes or
-damages its folder does not affect the next one, and numpy is imported only once. A child knows the arguments of its
-calls but no right answer.
+to ``find`` a function, to ``load`` it, to ``call`` it any number of times, and to ``end``. It may also ask which
+notebooks are ``damaged``. Each exercise gets a fresh copy of the files in its own folder and, where the system can
+fork, its own child process. A child that crashes or damages its folder does not affect the next one, and numpy is
+imported only once. A child knows the arguments of its calls but no right answer.
 """
 
 from __future__ import annotations
@@ -206,9 +206,12 @@ def _answer(request: dict[str, Any], functions: dict[str, Any]) -> dict[str, Any
         if request["do"] == "find":
             found = _found(Path.cwd(), request["chapter"], request["name"])
             return {"value": found, "changed": []}
+        if request["do"] == "damaged":
+            return {"value": answers.damaged(Path.cwd()), "changed": []}
         if request["do"] == "load":
-            functions["f"] = _load(Path.cwd(), request["path"], request["name"])
-            return {"value": None, "changed": []}
+            module = answers.load(Path.cwd(), request["path"], request["name"])
+            functions["f"] = getattr(module, request["name"], None)
+            return {"value": hasattr(module, request["name"]), "changed": []}
         sent = [frames.encode(argument) for argument in request["args"]]
         value = functions["f"](*request["args"])
         return {"value": value, "changed": frames.differing(request["args"], sent)}
@@ -222,14 +225,6 @@ def _found(folder: Path, chapter: str, name: str) -> dict[str, str]:
     if not found.path and found.problem:
         raise found.problem
     return {"path": found.path, "origin": found.origin, "unwritten": found.unwritten}
-
-
-def _load(folder: Path, path: str, name: str) -> Any:
-    """Run the file with the answer, and return its function."""
-    module = answers.load(folder, path, name)
-    if not hasattr(module, name):
-        raise AttributeError(f"{path} defines no {name}")
-    return getattr(module, name)
 
 
 def _described(error: BaseException) -> dict[str, Any]:

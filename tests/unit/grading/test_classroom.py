@@ -188,23 +188,40 @@ def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_pat
 
 
 def test_what_cannot_be_taken_has_no_mark_rather_than_zero(course, tmp_path):
-    """Archives of another kind, a damaged one, another file, and code of something else; the others are graded."""
+    """Archives and notebooks that cannot be read, empty files and code of something else; the others are graded."""
     folder, out = tmp_path / "class", tmp_path / "out"
     (folder / "anna").mkdir(parents=True)
     (folder / "anna/improve.py").write_text(PASSES)
     (folder / "eve").mkdir()
     for name in ("carl.rar", "dora.7z", "emil.zip"):
         (folder / name).write_bytes(b"PK\3\4 not an archive")
+    notebook = json.dumps(
+        {"cells": [{"cell_type": "code", "source": [PASSES]}], "nbformat": 4}
+    )
+    contents = {
+        "hugo/improve.py": PASSES,
+        "ida/improve.py": "",
+        "kim/work.ipynb": notebook[: len(notebook) * 2 // 3],
+        "lea/improve.py": PASSES,
+        "lea/half.ipynb": "{",
+        "lea/backup.py": "# to do",
+    }
     for name in (
         "finn/report.pdf",
         "gwen/other.py",
         "hugo/improve.py",
         "hugo/more.rar",
+        "ida/improve.py",
+        "jane/improve.py",
+        "kim/work.ipynb",
+        "lea/improve.py",
+        "lea/half.ipynb",
+        "lea/backup.py",
     ):
         (folder / name).parent.mkdir(exist_ok=True)
-        (folder / name).write_text(PASSES if name == "hugo/improve.py" else "x = 1")
+        (folder / name).write_text(contents.get(name, "x = 1"))
     grade_class(GradingConfig(course, "practice"), folder, out, jobs=1)
-    refused = ["carl", "dora", "emil", "finn", "gwen"]
+    refused = ["carl", "dora", "emil", "finn", "gwen", "ida", "jane", "kim"]
     with (out / "gradebook.csv").open(newline="", encoding="utf-8-sig") as file:
         points = {row["student"]: row for row in csv.DictReader(file)}
     book = gradebook.read_gradebook(out, course)
@@ -217,25 +234,32 @@ def test_what_cannot_be_taken_has_no_mark_rather_than_zero(course, tmp_path):
         assert (marks[name]["points"], marks[name]["2.2"]) == ("", "")
         assert "Nothing of the submission could be taken: " in marks[name]["problems"]
     assert "hand in a zip" in marks["carl"]["problems"]
+    assert {name: points[name]["not_taken"] for name in ("ida", "jane", "kim", "lea")} == {
+        "ida": "improve.py is empty",
+        "jane": "no function of an exercise was found in improve.py",
+        "kim": "work.ipynb is not a complete notebook",
+        "lea": "half.ipynb is not a complete notebook",
+    }  # fmt: skip
+    assert marks["lea"]["points"] == "4.0"
     assert (marks["eve"]["points"], points["eve"]["points"]) == ("0.0", "0")
     # Of hugo a part was taken, which counts, and what was not is said.
     assert marks["hugo"]["points"] == "4.0"
     assert "Not taken, though exercises are missing: more.rar" in marks["hugo"]["problems"]  # fmt: skip
     overview = (out / "index.html").read_text()
     red = overview[overview.index('<ul class="bad">') : overview.index("</ul>")]
-    assert all(f">{name}</a>: " in red for name in [*refused, "hugo"])
-    assert "8 students; of 5 nothing could be taken" in overview
+    assert all(f">{name}</a>: " in red for name in [*refused, "hugo", "lea"])
+    assert "12 students; of 8 nothing could be taken" in overview
     for platform in exports.FORMATS:
         text = exports.marks_for(book, platform, "Work").splitlines()
         for name in refused:
             line = next(one for one in text if name in one)
             assert line.endswith(",") or ",,12,Ungraded," in line
     assert exports.unsettled(book) == refused
-    assert [said[:16] for said in exports.not_all_taken(book)] == ["hugo: Not taken,"]
+    assert [said[:15] for said in exports.not_all_taken(book)] == ["hugo: Not taken", "lea: Not taken,"]  # fmt: skip
     tried = class_statistics.counts(book)
-    assert {id: tried[id].attempted for id in ("2.1", "2.2")} == {"2.1": 0, "2.2": 2}
+    assert {id: tried[id].attempted for id in ("2.1", "2.2")} == {"2.1": 0, "2.2": 3}
     class_statistics.write_statistics(book)
-    assert "5 of which nothing could be taken do not count" in (
+    assert "8 of which nothing could be taken do not count" in (
         (out / "statistics.html").read_text()
     )
     feedback = (out / "students/carl/feedback.html").read_text()

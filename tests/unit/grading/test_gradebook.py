@@ -574,6 +574,33 @@ def test_where_nobody_tells_a_time_the_marks_stay_open_and_one_sentence_says_why
     assert "2 submissions count as handed in by the deadline" in book.notes[0]
 
 
+def test_the_overview_asks_for_no_time_that_the_roster_or_the_rules_tell(
+    tmp_path, quick
+):
+    people = ["Ada L", "Bo D", "Cy F", "Di G"]
+    names = [f"{name}_{k}_assignsubmission_file_" for k, name in enumerate(people)]
+    folder, out = handed_over(tmp_path / "class", names), tmp_path / "out"
+    roster = tmp_path / "moodle.csv"
+    roster.write_text(
+        "Identifier,Full name,Last modified (submission)\n"
+        'Participant 0,Ada L,"Wednesday, 10 June 2026, 2:14 PM"\n'
+        "Participant 1,Bo D,-\nParticipant 2,Cy F,\n"
+        'Participant 7,Dina Gray,"Wednesday, 10 June 2026, 3:14 PM"\n'
+    )
+    out.mkdir()
+    decided = '"Di G" = "Dina Gray"\n[submitted]\n"Cy F" = 2026-06-10T12:00:00\n'
+    (out / RULES).write_text(f"[matches]\n{decided}")
+    command = ["grade", str(folder), "--out", str(out), "--practice", "--jobs", "1"]
+    told = []
+    for options in (["--roster", str(roster)], []):  # it is kept for the next time
+        done = CliRunner().invoke(app, [*command, *options])
+        assert done.exit_code == 0, done.output
+        told.append("The files do not tell when Bo D came." in (out / "index.html").read_text())  # fmt: skip
+    assert told == [True, True]
+    arrived = [a.handed_in[:16] for a in read_gradebook(out, COURSE).accounts]
+    assert arrived == ["2026-06-10 14:14", "not told", "2026-06-10 12:00", "2026-06-10 15:14"]  # fmt: skip
+
+
 def test_blackboard_and_the_rosters_tell_the_time(tmp_path, quick):
     files = ["Work_ada_attempt_2026-10-14-12-00-00_a.py", "Work_bo_attempt_2026-10-12-12-00-00_a.py"]  # fmt: skip
     book = class_of(tmp_path, files, "name,id\nAda,ada\nBo,bo\n", COSTS)
