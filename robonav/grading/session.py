@@ -135,7 +135,7 @@ class Session:
     def _load(self, exercise: Exercise) -> None:
         path = self._find(exercise)
         request = {"do": "load", "path": path, "name": exercise.name}
-        if self._ask(exercise, request) is not True:
+        if self._ask(exercise, request) is not None:
             self.found.pop(exercise.id, None)
             raise Unaccepted("error", f"{path} defines no {exercise.name}.")
 

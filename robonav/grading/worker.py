@@ -211,7 +211,8 @@ def _answer(request: dict[str, Any], functions: dict[str, Any]) -> dict[str, Any
         if request["do"] == "load":
             module = answers.load(Path.cwd(), request["path"], request["name"])
             functions["f"] = getattr(module, request["name"], None)
-            return {"value": hasattr(module, request["name"]), "changed": []}
+            defined = hasattr(module, request["name"])
+            return {"value": None if defined else "undefined", "changed": []}
         sent = [frames.encode(argument) for argument in request["args"]]
         value = functions["f"](*request["args"])
         return {"value": value, "changed": frames.differing(request["args"], sent)}
