@@ -87,7 +87,7 @@ def around_a_ring(rng: Rng) -> Question:
     )
 
 
-@drill(PAGE, "How many weights?")
+@drill(PAGE, "How many weights has each layer?")
 def numbers_of_weights(rng: Rng) -> Question:
     """Count the weights of a fully connected layer and of a convolutional one."""
     sectors = int(rng.choice([18, 24, 36, 48, 72]))
