@@ -75,6 +75,7 @@ def test_a_benchmark_that_fails_says_which(tmp_path, code):
         page()["printed"](str(tmp_path / "some.py"), ())
 
 
+@pytest.mark.slow
 def test_help_is_given_without_a_benchmark():
     asked = subprocess.run(
         [sys.executable, FOLDER / "page.py", "--help"],

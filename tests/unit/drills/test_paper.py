@@ -59,6 +59,7 @@ def solutions(paper: Paper) -> str:
     return " ".join(texts(solutions_pdf([paper], "Robots")))
 
 
+@pytest.mark.slow
 def test_every_question_is_in_the_exam(paper, exam) -> None:
     for number, one in enumerate(paper.questions, start=1):
         assert f"{number}. {one.drill.title}" in exam
@@ -87,6 +88,7 @@ def test_the_exam_says_no_answer(paper, exam) -> None:
     assert [field for field in fields if not re.match(empty, field)] == []
 
 
+@pytest.mark.slow
 def test_solutions_have_answers_and_explanations(paper, solutions) -> None:
     assert solutions.count("Solutions of paper 3") > 1
     for one in paper.questions:

@@ -84,6 +84,7 @@ def test_results_read_back(tmp_path):
     )
 
 
+@pytest.mark.slow
 def test_workers_do_not_change_a_byte(tmp_path):
     for jobs in (1, 2):
         reproduce(toy(), tmp_path / str(jobs), jobs=jobs)

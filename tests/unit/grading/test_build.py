@@ -125,6 +125,7 @@ def test_open_tasks_tell_how_often_right_answers_pass():
 
 
 @pytest.mark.parametrize("chapter", [chapter for chapter, _ in COURSE.chapters()])
+@pytest.mark.slow
 def test_notebooks_are_valid_and_carry_what_nbgrader_reads(chapter):
     import nbformat
 
@@ -180,6 +181,7 @@ def test_building_writes_what_differs_and_removes_what_has_no_source(tmp_path):
     assert not (tmp_path / "exercises/ch2/old.py").exists()
 
 
+@pytest.mark.slow
 def test_a_zip_of_a_week_holds_its_exercises_alone(tmp_path):
     def robonav(*arguments, cwd):
         return subprocess.run(

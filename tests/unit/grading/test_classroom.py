@@ -187,6 +187,7 @@ def test_a_class_is_graded_and_written_down_for_everyone(folder, course, tmp_pat
     assert len(suite.findall("testcase/failure")) == 2
 
 
+@pytest.mark.slow
 def test_what_cannot_be_taken_has_no_mark_rather_than_zero(course, tmp_path):
     """Archives and notebooks that cannot be read, empty files and code of something else; the others are graded."""
     folder, out = tmp_path / "class", tmp_path / "out"

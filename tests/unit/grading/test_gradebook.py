@@ -968,6 +968,7 @@ def test_the_commands(tmp_path, quick):
 @pytest.mark.parametrize(
     "secret", [b"", pytest.param(b"a secret", marks=pytest.mark.slow)]
 )
+@pytest.mark.slow
 def test_an_objection_is_answered_with_what_was_run(tmp_path, secret):
     """In this process, without a sandbox, which is the same but for the tier."""
     folder, out = tmp_path / "class", tmp_path / "out"

@@ -64,6 +64,7 @@ def test_a_ring_does_not_hide_itself(size, disguises):
         assert all(names <= ring for names in reported)
 
 
+@pytest.mark.slow
 def test_a_third_person_does_not_hide_a_copy_in_a_small_class():
     """Half of ten exercises are copied, and a third person has four of the same answers."""
     for size in (6, 8):
@@ -169,6 +170,7 @@ def copied(folder, name="thief<b>"):
         (place / path.name).write_text("# <script>alert(1)</script>\n" + ast.unparse(tree))  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_class_is_compared_and_shown_side_by_side(tmp_path):
     folder = handed_over(tmp_path / "class")
     copied(folder)

@@ -39,6 +39,7 @@ def rounds_of(n, worlds=4):
     return [Simulator(random_worlds(worlds, 20, seed=50 + i), max_steps=100) for i in range(n)]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_few_rounds_teach_to_go_round_obstacles():
     policy = SensorPolicy(Ring(36), fully_connected(Ring(36), seed=0), 0.3)
     worlds = random_worlds(60, 20, seed=9)

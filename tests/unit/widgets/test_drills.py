@@ -37,6 +37,7 @@ def test_unpacks_what_the_book_packs(node):
         assert node("drills", body, [questions, texts]) == drawn
 
 
+@pytest.mark.slow
 def test_judges_as_python_does(node):
     rng = np.random.default_rng(0)
     cases, expected = [], []

@@ -30,6 +30,7 @@ PLAN = """return data.worlds.map((world) => {
         ),
     ],
 )
+@pytest.mark.slow
 def test_plans_are_pythons_node_for_node(node, settings):
     """Of two paths that are equally long, rounding may choose another; the nodes are as many all the same.
 

@@ -76,6 +76,7 @@ def thousand():
     ("rule", "policy"), [("straight", straight), ("freer-side", turn_to_clearer_side)]
 )
 @pytest.mark.parametrize("speed", [2.0, pytest.param(3.5, marks=pytest.mark.slow)])
+@pytest.mark.slow
 def test_rules_drive_a_thousand_worlds_in_the_page_as_in_python(
     node, thousand, rule, policy, speed
 ):
