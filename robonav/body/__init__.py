@@ -3,7 +3,7 @@
 It needs the extra ``body``.
 """
 
-from .control import follow, odometry, on_a_leash, reference, wheel_speeds
+from .control import follow, limited_reference, odometry, reference, wheel_speeds
 from .model import Body, build, model_file
 from .simulator import BodySimulator
 from .training import ideal, randomised, train_in
@@ -14,9 +14,9 @@ __all__ = [
     "build",
     "follow",
     "ideal",
+    "limited_reference",
     "model_file",
     "odometry",
-    "on_a_leash",
     "randomised",
     "reference",
     "train_in",

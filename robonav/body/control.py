@@ -29,8 +29,12 @@ WHEELS = (
 BASE = np.linalg.inv(WHEELS)
 GAIN = 4.0  # 1/s: an error of 1 m asks for 4 m/s more
 TURN_TIME = 0.8  # s in which the reference turns
-HASTE = 1.5  # the base goes at most so many times as fast as the robot of section 2.5
-LEASH = 0.6  # m that the reference may be away from the base when a second begins
+SPEED_RATIO = (
+    1.5  # the base goes at most so many times as fast as the robot of section 2.5
+)
+GREATEST_LEAD = (
+    0.6  # m that the reference may be away from the base when a second begins
+)
 
 
 def wheel_speeds(velocity: Floats) -> Floats:
@@ -161,8 +165,8 @@ def follow(estimate: Floats, pose: Floats, velocity: Floats, most: float) -> Flo
     return np.array([c * vx + s * vy, c * vy - s * vx, turn])
 
 
-def on_a_leash(pose: Floats, base: Floats) -> Floats:
-    """Return a pose that is no farther than the leash from the base, and looks where the base looks.
+def limited_reference(pose: Floats, base: Floats) -> Floats:
+    """Return a pose that is at most 0.6 m from the base, and looks where the base looks.
 
     Parameters
     ----------
@@ -179,10 +183,10 @@ def on_a_leash(pose: Floats, base: Floats) -> Floats:
     Examples
     --------
     >>> import numpy as np
-    >>> from robonav.body import on_a_leash
-    >>> on_a_leash(np.array([2.0, 0.0, 0.1]), np.zeros(3))
+    >>> from robonav.body import limited_reference
+    >>> limited_reference(np.array([2.0, 0.0, 0.1]), np.zeros(3))
     array([0.6, 0. , 0. ])
     """
     ahead = pose[:2] - base[:2]
-    kept = min(1.0, LEASH / max(math.hypot(*ahead), 1e-9))
+    kept = min(1.0, GREATEST_LEAD / max(math.hypot(*ahead), 1e-9))
     return np.array([*(base[:2] + kept * ahead), base[2]])

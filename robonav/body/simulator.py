@@ -26,12 +26,12 @@ from robonav.robot._fast.motion import outcome_of, turned_to_target
 from robonav.robot.simulator import NEVER, check_commands
 
 from .control import (
-    HASTE,
     RATE,
+    SPEED_RATIO,
     Floats,
     follow,
+    limited_reference,
     odometry,
-    on_a_leash,
     reference,
     wheel_speeds,
 )
@@ -230,11 +230,11 @@ class BodySimulator(Simulator):
         """Drive robot i for one second, while its obstacles move ``there``; return the least clearance."""
         length = -self.speed if command == BACKWARD else self.speed
         turn = self._turn(i, command)
-        start = on_a_leash(self.references[i], self.estimates[i])
+        start = limited_reference(self.references[i], self.estimates[i])
         before, clearance = self.centres[i], math.inf
         for tick in range(RATE):
             pose, velocity = reference(start, turn, length, tick / RATE)
-            wanted = follow(self.estimates[i], pose, velocity, HASTE * self.speed)
+            wanted = follow(self.estimates[i], pose, velocity, SPEED_RATIO * self.speed)
             turned = self._drive_wheels(i, wheel_speeds(wanted))
             self.estimates[i] = odometry(self.estimates[i], turned)
             share = np.array([tick, tick + 1]) / RATE

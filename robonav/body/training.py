@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from itertools import count
 
 import numpy as np
 
-from robonav.deep.gradient_ascent import adam, ascend
-from robonav.deep.networks import random_actor_critic
-from robonav.deep.ppo import batch_of, minibatches, objective
-from robonav.deep.team import act_together
+from robonav.deep import ppo_on_episodes
+from robonav.deep.episodes import Draw
 from robonav.networks.policy import NetworkPolicy
 from robonav.networks.torch_lbfgs import one_thread
-from robonav.networks.torch_module import as_module, as_network
-from robonav.nnql.task import ACTIONS, EXPLORING, REPLAYING, WORLDS, make_rng
 from robonav.progress import Progress
 from robonav.robot import (
     REFLEX,
@@ -25,13 +21,10 @@ from robonav.robot import (
 )
 from robonav.validation import check_integer
 
-Drawn = Callable[[np.random.Generator], Simulator]
-"""``draw(rng)`` returns a simulator whose robots are at their start."""
-
 
 @one_thread()
 def train_in(
-    draw: Drawn,
+    draw: Draw,
     updates: int = 60,
     *,
     reflex: ReflexRule | None = REFLEX,
@@ -43,7 +36,7 @@ def train_in(
 ) -> NetworkPolicy:
     """Train a policy by PPO, with a simulator drawn anew for each update.
 
-    All its robots act until their episodes have ended. The rest is :func:`robonav.deep.ppo`, and has its defaults.
+    The loop is that of :func:`robonav.deep.ppo_on_episodes`, with the defaults of :func:`robonav.deep.ppo`.
 
     Parameters
     ----------
@@ -76,25 +69,20 @@ def train_in(
     (12, 32, 5)
     """
     check_integer("updates", updates, at_least=1)
-    encoder = Encoder()
-    start = random_actor_critic(encoder.size, hidden, ACTIONS, seed)
-    policy, value = as_module(start.policy), as_module(start.value)
-    optimiser = adam(0.01, policy, value)
-    for update in range(updates):
-        simulator = draw(make_rng(seed, WORLDS, update))  # the only difference
-        acting = NetworkPolicy(as_network(policy), encoder, temperature=1.0)
-        rng = make_rng(seed, EXPLORING, update)
-        rollouts = act_together(simulator, acting, reflex, rng)
-        batch = batch_of(rollouts, policy, value, discount=0.99, trace_decay=0.95)
-        rng = make_rng(seed, REPLAYING, update)
-        for rows in minibatches(len(batch), epochs, batches, rng):
-            ascend(optimiser, objective(policy, value, batch[rows], 0.2, 0.5, 0.03))
+    done = count(1)
+
+    def report(_: Simulator) -> None:
         if progress is not None:
-            progress(update + 1, updates)
-    return NetworkPolicy(as_network(policy), encoder, temperature=1.0)
+            progress(next(done), updates)
+
+    learned = ppo_on_episodes(
+        draw, updates, reflex=reflex, after=report, hidden=hidden, epochs=epochs,
+        batches=batches, seed=seed,
+    )  # fmt: skip
+    return NetworkPolicy(learned.policy, Encoder(), temperature=1.0)
 
 
-def ideal(robots: int = 32, obstacles: int = 20) -> Drawn:
+def ideal(robots: int = 32, obstacles: int = 20) -> Draw:
     """Return a function that draws simulators of section 2.5, in which every action does what it says.
 
     Parameters
@@ -121,7 +109,7 @@ def ideal(robots: int = 32, obstacles: int = 20) -> Drawn:
     )
 
 
-def randomised(robots: int = 32, obstacles: int = 20) -> Drawn:
+def randomised(robots: int = 32, obstacles: int = 20) -> Draw:
     """Return a function that draws simulators of section 2.5 with a speed, slips and errors of the ranges at random.
 
     The speed is 1.5 to 3 m/s, up to half of the actions slip to a neighbour, and ranges are off by up to 0.5 m. None of

@@ -1,6 +1,7 @@
 """Chapter 6, deep reinforcement learning and imitation: PPO and GAIL."""
 
 from .adversarial_training import GAILResult, train_gail
+from .episodes import ppo_on_episodes
 from .gail import (
     best_discriminator,
     constant_reward,
@@ -42,6 +43,7 @@ __all__ = [
     "navigation_task",
     "objective",
     "ppo",
+    "ppo_on_episodes",
     "random_discriminator",
     "train_gail",
     "train_ppo",

@@ -8,34 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 
 from robonav.networks.policy import NetworkPolicy
 from robonav.networks.torch_lbfgs import one_thread
-from robonav.networks.torch_module import as_module, as_network
-from robonav.nnql.task import ACTIONS, EXPLORING, REPLAYING, WORLDS, make_rng
-from robonav.robot import (
-    REFLEX,
-    Encoder,
-    Outcome,
-    Simulator,
-    Transition,
-    follow_policy,
-    run_episodes,
-)
-from robonav.robot.environment_settings import arrival_or_collision
+from robonav.robot import REFLEX, Encoder, Outcome, Simulator
 from robonav.robot.rollout import ReflexRule
 from robonav.robot.team import TeamSimulator, random_teams
 from robonav.validation import check_integer, check_positive, checks
 
 from ._arguments import RULES
-from .gradient_ascent import adam, ascend
-from .networks import ActorCritic, random_actor_critic
-from .ppo import Rollout, batch_of, minibatches, objective
+from .episodes import ppo_on_episodes
+from .networks import ActorCritic
 
 TEAM_RULES = RULES | {
     "robots": lambda name, value: check_integer(name, value, at_least=1),
@@ -161,60 +147,22 @@ def train_team(
     >>> train_team(robots=4, updates=1, maps=2, seed=0).policy.network.sizes
     (12, 32, 5)
     """
-    encoder = Encoder()
-    start = random_actor_critic(encoder.size, hidden, ACTIONS, seed)
-    policy, value = as_module(start.policy), as_module(start.value)
-    optimiser = adam(gradient_step, policy, value)
     went = []
-    for update in range(updates):
-        teams = random_teams(maps, robots, obstacles, seed=make_rng(seed, WORLDS, update))  # fmt: skip
-        simulator = TeamSimulator(teams, speed, max_steps=max_steps)
-        acting = NetworkPolicy(as_network(policy), encoder, temperature=1.0)
-        rollouts = act_together(
-            simulator, acting, reflex, make_rng(seed, EXPLORING, update)
-        )
-        batch = batch_of(rollouts, policy, value, discount, trace_decay)
-        rng = make_rng(seed, REPLAYING, update)
-        for rows in minibatches(len(batch), epochs, batches, rng):
-            gain = objective(
-                policy, value, batch[rows], clip, value_weight, entropy_weight
-            )
-            ascend(optimiser, gain)
+
+    def draw(rng: np.random.Generator) -> TeamSimulator:
+        teams = random_teams(maps, robots, obstacles, seed=rng)
+        return TeamSimulator(teams, speed, max_steps=max_steps)
+
+    def record(simulator: Simulator) -> None:
+        assert isinstance(simulator, TeamSimulator)
         arrived = simulator.outcome == Outcome.ARRIVED
         went.append((arrived.mean(), simulator.met.mean(), simulator.steps.sum()))
+
+    learned = ppo_on_episodes(
+        draw, updates, reflex=reflex, after=record, hidden=hidden, epochs=epochs,
+        batches=batches, clip=clip, discount=discount, trace_decay=trace_decay,
+        gradient_step=gradient_step, value_weight=value_weight,
+        entropy_weight=entropy_weight, seed=seed,
+    )  # fmt: skip
     arrived, met, steps = np.array(went).T
-    learned = ActorCritic(as_network(policy), as_network(value))
-    return TeamTraining(learned, encoder, arrived, met, steps.astype(np.int64))
-
-
-def act_together(
-    simulator: Simulator,
-    policy: NetworkPolicy,
-    reflex: ReflexRule | None,
-    rng: np.random.Generator,
-) -> list[Rollout]:
-    """Let all robots act until their episodes have ended, and return the steps of each."""
-    seconds = list(run_episodes(simulator, follow_policy(policy, rng), reflex=reflex))
-    robots = np.concatenate([second.robots for second in seconds])
-    columns = zip(*(learned_from(second, policy.encoder) for second in seconds), strict=True)  # fmt: skip
-    order = np.argsort(robots, kind="stable")  # robot by robot, each in time
-    cuts = np.cumsum(np.bincount(robots, minlength=len(simulator)))[:-1].tolist()
-    parts = [
-        torch.as_tensor(np.concatenate(column)[order]).tensor_split(cuts)
-        for column in columns
-    ]
-    return [Rollout(*own) for own in zip(*parts, strict=True)]
-
-
-def learned_from(second: Transition, encoder: Encoder) -> tuple[NDArray[Any], ...]:
-    """Return one simulated second in the columns of a :class:`robonav.deep.ppo.Rollout`."""
-    outcome = second.outcome
-    return (
-        encoder(second.sensing),
-        np.where(second.asked, second.actions, 0),
-        arrival_or_collision(second.sensing, second.next_sensing, outcome),
-        encoder(second.next_sensing),
-        (outcome == Outcome.ARRIVED) | (outcome == Outcome.COLLIDED),
-        outcome != Outcome.RUNNING,
-        second.asked,
-    )
+    return TeamTraining(learned, Encoder(), arrived, met, steps.astype(np.int64))

@@ -13,7 +13,7 @@ from robonav.body import (
     follow,
     model_file,
     odometry,
-    on_a_leash,
+    limited_reference,
     reference,
     wheel_speeds,
 )
@@ -261,10 +261,10 @@ def test_who_is_where_the_reference_is_goes_as_fast_as_it():
     assert 0 < turned[2] < 1  # the short way round
 
 
-def test_the_leash_holds():
-    kept = on_a_leash(np.array([5.0, 0.0, 1.0]), np.array([4.8, 0.1, 0.9]))
+def test_the_reference_stays_near_the_base():
+    kept = limited_reference(np.array([5.0, 0.0, 1.0]), np.array([4.8, 0.1, 0.9]))
     np.testing.assert_array_equal(kept, [5.0, 0.0, 0.9])
-    assert np.hypot(*on_a_leash(np.array([5.0, 5.0, 0.0]), np.zeros(3))[:2]) == (
+    assert np.hypot(*limited_reference(np.array([5.0, 5.0, 0.0]), np.zeros(3))[:2]) == (
         pytest.approx(0.6)
     )
 

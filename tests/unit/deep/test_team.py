@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from robonav.deep import train_team
-from robonav.deep.team import act_together
+from robonav.deep.episodes import act_together
 from robonav.networks import NetworkPolicy, random_network
 from robonav.robot import REFLEX, Encoder, Outcome
 from robonav.robot.team import TeamSimulator, random_teams

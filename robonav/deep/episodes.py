@@ -1,0 +1,151 @@
+"""PPO on whole episodes: before each update, robots act in a new simulator until their episodes have ended."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from robonav.networks.policy import NetworkPolicy
+from robonav.networks.torch_module import as_module, as_network
+from robonav.nnql.task import ACTIONS, EXPLORING, REPLAYING, WORLDS, make_rng
+from robonav.robot import (
+    Encoder,
+    Outcome,
+    Simulator,
+    Transition,
+    follow_policy,
+    run_episodes,
+)
+from robonav.robot.environment_settings import arrival_or_collision
+from robonav.robot.rollout import ReflexRule
+
+from .gradient_ascent import adam, ascend
+from .networks import ActorCritic, random_actor_critic
+from .ppo import Rollout, batch_of, minibatches, objective
+
+Draw = Callable[[np.random.Generator], Simulator]
+"""``draw(rng)`` returns a simulator whose robots are at their start."""
+
+
+def ppo_on_episodes(
+    draw: Draw,
+    updates: int,
+    *,
+    reflex: ReflexRule | None,
+    after: Callable[[Simulator], None],
+    hidden: Sequence[int] = (32,),
+    epochs: int = 4,
+    batches: int = 16,
+    clip: float = 0.2,
+    discount: float = 0.99,
+    trace_decay: float = 0.95,
+    gradient_step: float = 0.01,
+    value_weight: float = 0.5,
+    entropy_weight: float = 0.03,
+    seed: int,
+) -> ActorCritic:
+    """Train one policy for all robots of simulators that are drawn anew for each update, by PPO.
+
+    Each robot is an actor of :func:`robonav.deep.ppo`, which also says what the settings mean. They share the networks.
+
+    Parameters
+    ----------
+    draw : callable
+        ``draw(rng)`` returns a simulator whose robots are at their start.
+    updates : int
+        How often the robots act, and the networks learn from it.
+    reflex : callable or None
+        What a robot does before the policy is asked.
+    after : callable
+        Called as ``after(simulator)`` with the simulator of each update, when its episodes have ended.
+    hidden : sequence of int
+        Units of each hidden layer.
+    epochs : int
+        How often an update goes through the steps of all robots.
+    batches : int
+        Minibatches into which an epoch divides the steps.
+    clip : float
+        epsilon of Eq. (7) of PPO.
+    discount : float
+        gamma of its Eqs. (11) and (12).
+    trace_decay : float
+        lambda of its Eq. (11).
+    gradient_step : float
+        Step of Adam.
+    value_weight : float
+        c_1 of its Eq. (9), the weight of the error of the value function.
+    entropy_weight : float
+        c_2 of its Eq. (9), the weight of the entropy.
+    seed : int
+        Of the weights, the simulators, the actions and the minibatches.
+
+    Returns
+    -------
+    ActorCritic
+        The trained networks.
+
+    Examples
+    --------
+    >>> from robonav.deep import ppo_on_episodes
+    >>> from robonav.robot import REFLEX, Simulator, random_worlds
+    >>> ended = []
+    >>> learned = ppo_on_episodes(
+    ...     lambda rng: Simulator(random_worlds(3, obstacles=10, seed=rng), max_steps=99),
+    ...     updates=2, reflex=REFLEX, after=lambda simulator: ended.append(len(simulator)), seed=0,
+    ... )
+    >>> learned.policy.sizes, ended
+    ((12, 32, 5), [3, 3])
+    """
+    encoder = Encoder()
+    start = random_actor_critic(encoder.size, hidden, ACTIONS, seed)
+    policy, value = as_module(start.policy), as_module(start.value)
+    optimiser = adam(gradient_step, policy, value)
+    weights = clip, value_weight, entropy_weight
+    for update in range(updates):
+        simulator = draw(make_rng(seed, WORLDS, update))
+        acting = NetworkPolicy(as_network(policy), encoder, temperature=1.0)
+        exploring = make_rng(seed, EXPLORING, update)
+        rollouts = act_together(simulator, acting, reflex, exploring)
+        batch = batch_of(rollouts, policy, value, discount, trace_decay)  # Eq. (11)
+        rng = make_rng(seed, REPLAYING, update)
+        for rows in minibatches(len(batch), epochs, batches, rng):
+            ascend(optimiser, objective(policy, value, batch[rows], *weights))
+        after(simulator)
+    return ActorCritic(as_network(policy), as_network(value))
+
+
+def act_together(
+    simulator: Simulator,
+    policy: NetworkPolicy,
+    reflex: ReflexRule | None,
+    rng: np.random.Generator,
+) -> list[Rollout]:
+    """Let all robots act until their episodes have ended, and return the steps of each."""
+    seconds = list(run_episodes(simulator, follow_policy(policy, rng), reflex=reflex))
+    robots = np.concatenate([second.robots for second in seconds])
+    columns = zip(*(learned_from(second, policy.encoder) for second in seconds), strict=True)  # fmt: skip
+    order = np.argsort(robots, kind="stable")  # robot by robot, each in time
+    cuts = np.cumsum(np.bincount(robots, minlength=len(simulator)))[:-1].tolist()
+    parts = [
+        torch.as_tensor(np.concatenate(column)[order]).tensor_split(cuts)
+        for column in columns
+    ]
+    return [Rollout(*own) for own in zip(*parts, strict=True)]
+
+
+def learned_from(second: Transition, encoder: Encoder) -> tuple[NDArray[Any], ...]:
+    """Return one simulated second in the columns of a :class:`robonav.deep.ppo.Rollout`."""
+    outcome = second.outcome
+    return (
+        encoder(second.sensing),
+        np.where(second.asked, second.actions, 0),
+        arrival_or_collision(second.sensing, second.next_sensing, outcome),
+        encoder(second.next_sensing),
+        (outcome == Outcome.ARRIVED) | (outcome == Outcome.COLLIDED),
+        outcome != Outcome.RUNNING,
+        second.asked,
+    )
