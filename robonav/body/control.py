@@ -63,12 +63,12 @@ def wheel_speeds(velocity: Floats) -> Floats:
 
 
 def odometry(estimate: Floats, turned: Floats) -> Floats:
-    """Where the robot believes to be after its wheels have turned.
+    """Where the robot thinks it is after its wheels have turned.
 
     Parameters
     ----------
     estimate : (3,) array
-        Where it believed to be.
+        Where it thought it was.
     turned : (3,) array
         How far each wheel has turned since, in radians. A wheel that slips turns farther than it drives.
 
@@ -139,7 +139,7 @@ def follow(estimate: Floats, pose: Floats, velocity: Floats, most: float) -> Flo
     Parameters
     ----------
     estimate : (3,) array
-        Where the base believes to be.
+        Where the base thinks it is.
     pose, velocity : (3,) arrays
         Of the reference.
     most : float
@@ -173,7 +173,7 @@ def limited_reference(pose: Floats, base: Floats) -> Floats:
     pose : (3,) array
         Of the reference at the end of a second.
     base : (3,) array
-        Where the base believes to be then.
+        Where the base thinks it is then.
 
     Returns
     -------
