@@ -44,7 +44,7 @@ def drills_export(
         str,
         typer.Option(
             help="moodle (.xml, Moodle's question bank), qti (.zip, for Canvas and Blackboard), or pdf (an exam to "
-            "print, and a second file with its solutions). By default the extension of the file tells."
+            "print, and a second file with its solutions). By default the extension of the file decides."
         ),
     ] = "",
     chapter: Chapters = None,
@@ -56,7 +56,7 @@ def drills_export(
     at_most: Annotated[
         int,
         typer.Option(
-            help="At most this many drills, spread evenly over those chosen. 0 is 10 for an exam, and all for a bank."
+            help="At most this many drills, spread evenly over those chosen. 0 means 10 for an exam and all for a bank."
         ),
     ] = 0,
     each: Annotated[int, typer.Option(help="Questions of each drill.")] = 1,

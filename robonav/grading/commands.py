@@ -42,7 +42,7 @@ Out = Annotated[
 Secret = Annotated[
     Path | None,
     typer.Option(
-        help="A file whose content seeds the test cases. ROBONAV_SECRET does the same."
+        help="A file whose content seeds the test cases. The variable ROBONAV_SECRET can hold the seed instead."
     ),
 ]
 Students = Annotated[
@@ -307,7 +307,7 @@ def mark_by_hand(
     points: Annotated[
         str,
         typer.Argument(
-            help="The points that count, before lateness; or grader, to take a change back."
+            help="The points that count, before a penalty for lateness. The word grader takes an earlier change back."
         ),
     ],
     reason: Annotated[str, typer.Option(help="Why. It is kept in the log.")],

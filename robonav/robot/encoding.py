@@ -166,9 +166,8 @@ def lfd_state(sensing: Sensing) -> NDArray[np.int64]:
     array([[2, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0]])
     """
     danger = degree_of_danger(sensing.ranges)
-    return np.column_stack(
-        [danger, sensing.target_region, sensing.target_seen]
-    )  # Eq. (3.17)
+    parts = [danger, sensing.target_region, sensing.target_seen]
+    return np.column_stack(parts)  # Eq. (3.17)
 
 
 def nnql_state(sensing: Sensing) -> NDArray[np.int64]:

@@ -70,7 +70,7 @@ class PlainNavigationEnv(gymnasium.Env):
 
     A reflex comes first: if nothing is in sensor range, the robot turns to its target and goes forward. If all five
     sectors ahead are blocked, it steps back. In both cases it ignores the action given. Of the direction of the target
-    the reflex knows the "exact" one, or only the "sector", to whose middle the robot then turns: see ``direction``.
+    the reflex knows the "exact" one, or only the "sector", to whose middle the robot then turns (see ``Reflex``).
 
     ## Observation space
 

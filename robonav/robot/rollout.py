@@ -353,12 +353,12 @@ def navigate(
         )
     rng = check_generator("seed", seed)
     simulator = Simulator(worlds, speed, slip=slip, noise=noise, max_steps=max_steps)
-    return drive(
+    return navigate_in(
         policy, simulator, record_paths, reflex=reflex, seed=rng, progress=progress
     )
 
 
-def drive(
+def navigate_in(
     policy: Policy | PolicyWithMemory,
     simulator: Simulator,
     record_paths: bool = False,
@@ -391,9 +391,9 @@ def drive(
 
     Examples
     --------
-    >>> from robonav.robot import Simulator, drive, random_worlds, turn_to_clearer_side
+    >>> from robonav.robot import Simulator, navigate_in, random_worlds, turn_to_clearer_side
     >>> simulator = Simulator(random_worlds(100, obstacles=10, seed=1), max_steps=500)
-    >>> int(drive(turn_to_clearer_side, simulator).success.sum())
+    >>> int(navigate_in(turn_to_clearer_side, simulator).success.sum())
     99
     """
     select_actions = selector_of(policy, simulator, check_generator("seed", seed))

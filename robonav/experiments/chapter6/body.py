@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from robonav.benchmark import board_worlds, outcome_rates
 from robonav.benchmark import method as policy_of
-from robonav.robot import Policy, Reflex, Simulator, Worlds, drive
+from robonav.robot import Policy, Reflex, Simulator, Worlds, navigate_in
 
 from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers
 from .setup import CONDITIONS
@@ -46,7 +46,7 @@ def simulator_of(name: str, worlds: Worlds) -> Simulator:
 def rates_of(policy: Policy, body: str, worlds: Worlds, seed: int) -> Numbers:
     """Outcome rates of a policy that drives robots with one body."""
     simulator = simulator_of(body, worlds)
-    ends = drive(policy, simulator, reflex=REFLEX_OF_BODIES, seed=seed)
+    ends = navigate_in(policy, simulator, reflex=REFLEX_OF_BODIES, seed=seed)
     arrived = ends.steps[ends.success]
     seconds = float(arrived.mean()) if len(arrived) else float(BODY["max_steps"])
     return outcome_rates(ends) | {"seconds to the target": seconds}

@@ -11,9 +11,9 @@ from robonav.body import (
     BodySimulator,
     build,
     follow,
+    limited_reference,
     model_file,
     odometry,
-    limited_reference,
     reference,
     wheel_speeds,
 )
@@ -25,8 +25,8 @@ from robonav.robot import (
     Reflex,
     Simulator,
     concatenate,
-    drive,
     make_world,
+    navigate_in,
     obstacle_tracks,
     random_worlds,
     sense,
@@ -190,7 +190,7 @@ def test_a_robot_alone_drives_as_among_others():
 
 def test_a_planner_with_a_memory_arrives_with_a_body():
     simulator = BodySimulator(random_worlds(4, obstacles=5, seed=11), max_steps=120)
-    ends = drive(Bug(), simulator, True, reflex=Reflex("exact"))
+    ends = navigate_in(Bug(), simulator, True, reflex=Reflex("exact"))
     assert ends.success.sum() >= 3
     assert len(ends.paths[0]) == ends.steps[0] + 1
 
