@@ -100,7 +100,7 @@ def push_of_a_wheel(rng: Rng) -> Question:
 @drill("body", "How long does it take to go back?")
 def seconds_to_turn_around(rng: Rng) -> Question:
     """Compute how long a robot takes to go backward, and how far it goes on."""
-    speed = float(rng.integers(2, 9)) / 2
+    speed = float(rng.integers(5, 46)) / 10
     friction = float(rng.integers(1, 10)) / 10
     deceleration = 9.81 * friction
     answer = 2 * speed / deceleration

@@ -20,7 +20,7 @@ def edge_of_a_circle(rng: Rng) -> Question:
     """Compute the angle at which a robot sees the near edge of a circle."""
     while True:
         ahead, left = int(rng.integers(4, 9)), int(rng.integers(2, 7))
-        radius = float(rng.choice([1.5, 2, 2.5, 3]))
+        radius = float(rng.integers(10, 31)) / 10
         distance = math.hypot(ahead, left)
         if radius + 1 < distance < 10 and left > radius:
             break

@@ -80,6 +80,7 @@ EXPERIMENTS = (
                 for stage, (worlds, settings) in STAGES.items()
             },
         },
+        shortened="A quick run has two updates in each stage.",
         note="A stage goes on with the networks of the stage before. Nine sensors, no map, 2 m/s.",
         plot=SUCCESS_BARS,
     ),
