@@ -114,7 +114,8 @@ def build(course: Course) -> list[str]:
 def students_zip(course: Course, path: Path) -> None:
     """Write a zip file for students.
 
-    It contains stubs, notebooks, and the tests with the answers to the public cases only.
+    It contains stubs, notebooks, and the tests with the answers to the public cases only. They lie in a folder with the
+    name of the file, so that the zip of one week does not overwrite the answers to those of another.
     """
     content = {
         name: text.encode()
@@ -127,9 +128,7 @@ def students_zip(course: Course, path: Path) -> None:
         zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive,
     ):
         for name, text in content.items():
-            archive.writestr(
-                zipfile.ZipInfo(f"robonav-exercises/{name}", LONG_AGO), text
-            )
+            archive.writestr(zipfile.ZipInfo(f"{path.stem}/{name}", LONG_AGO), text)
 
 
 def nbgrader_course(course: Course, folder: Path) -> list[Path]:

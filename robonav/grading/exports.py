@@ -207,6 +207,15 @@ def other_maximum(book: Gradebook) -> str:
     return ""
 
 
+def _first_and_last(name: str) -> tuple[str, str]:
+    """Divide a name written as "Ada Lovelace", or as "Lovelace, Ada", as Canvas writes it."""
+    if "," in name:
+        last, _, first = name.partition(",")
+    else:
+        first, _, last = name.rpartition(" ")
+    return first.strip(), last.strip()
+
+
 def _gradescope(book: Gradebook, title: str) -> list[list[Any]]:
     """The columns of Gradescope's own export of an assignment, with one for each exercise."""
     ids = list(dict.fromkeys(id for a in book.accounts for id in a.marks))
@@ -219,7 +228,7 @@ def _gradescope(book: Gradebook, title: str) -> list[list[Any]]:
         row = account.student.row or {}
         first, last = _named(row, "First Name"), _named(row, "Last Name")
         if not (first or last):
-            first, _, last = account.student.name.rpartition(" ")
+            first, last = _first_and_last(account.student.name)
         total = _total(account)
         lines.append(
             [

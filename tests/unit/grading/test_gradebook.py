@@ -1086,3 +1086,16 @@ def test_killed_twenty_times_nothing_confirmed_is_lost(tmp_path, quick):
     assert shutil.disk_usage(out)
     grade_class(HERE, folder, out, jobs=1)
     assert not list(out.rglob("*.partial-*"))
+
+
+@pytest.mark.parametrize(
+    ("name", "parts"),
+    [
+        ("Ada Lovelace", ("Ada", "Lovelace")),
+        ("Lovelace, Ada", ("Ada", "Lovelace")),
+        ("Ana de la Cruz", ("Ana de la", "Cruz")),
+        ("Plato", ("", "Plato")),
+    ],
+)
+def test_first_and_last_name(name, parts):
+    assert exports._first_and_last(name) == parts
