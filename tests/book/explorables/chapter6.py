@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import torch
 
-from robonav.benchmark import display_name
+from robonav.benchmark import pareto_front
 from robonav.deep import (
     advantages,
     clipped_surrogate,
@@ -13,7 +13,6 @@ from robonav.deep import (
     hurrying_reward,
     log_odds,
 )
-from robonav.experiments import read_results
 from robonav.memory import GRU
 from robonav.planners import (
     PotentialField,
@@ -284,52 +283,23 @@ def ring_and_picture(shown: Shown) -> None:
     by_touch=[choose("obstacles", "10 obstacles"), slide("method", 0.2)],
 )
 def two_criteria(shown: Shown) -> None:
-    """A method is beaten if another one is better in both; the numbers are those of the leaderboard."""
+    """The front is that of the package's function, for the numbers that the explorable was given."""
     worlds, criterion = shown.chosen("obstacles"), shown.chosen("second criterion")
-    second = {"short ways (SPL)": "SPL", "no collision": "collision"}[criterion]
-    board, points = read_results("leaderboard"), {}
-    for place, case in enumerate(board.experiment.cases):
-        if case["setting"] == worlds and case["method"] != "straight":
-            success, other = (board.summary(metric, place).mean for metric in ("success", second))  # fmt: skip
-            other = 100 - other if second == "collision" else other
-            points[display_name(str(case["method"]))] = (success, other)
-    names, xy = list(points), np.array(list(points.values()))
-    above = (xy[None] > xy[:, None]).all(axis=-1)  # above[i, j]: j is better than i
-    front = [name for name, row in zip(names, above, strict=True) if not row.any()]
+    second = criterion.removesuffix(" (SPL)")
+    methods = shown.given["methods"]
+    names = [one["name"] for one in methods]
+    values = [one["values"][worlds] for one in methods]
+    xy = np.array([[own["success"], own[second]] for own in values], float)
+    front = np.array(names)[pareto_front(xy)]
     chosen = names.index(shown.chosen("method"))
-    better = [name for name, yes in zip(names, above[chosen], strict=True) if yes]
+    better = [n for n, one in zip(names, xy, strict=True) if (one > xy[chosen]).all()]
     shown.says(
-        f"{names[chosen]}: {xy[chosen, 0]:.9f} % arrive",
+        f"{names[chosen]}: {xy[chosen, 0]:.9f} % arrive, {second}: {xy[chosen, 1]:.9f} %.",
         f"Better in both: {', '.join(better)}."
         if better
         else f"No method is better than {names[chosen]} in both.",
         f"Not beaten by any: {', '.join(front)}.",
     )
     chart = shown.picture()
-    chart.has_dots(BLUE, xy[[names.index(name) for name in front]])
+    chart.has_dots(BLUE, xy[pareto_front(xy)])
     chart.has_dots(VERMILION, xy[[chosen]])
-
-
-@expects(
-    slide("forward", 0.8),
-    slide("to the left", 0.3),
-    slide("turn", 0.75),
-    by_keyboard=[slide("forward", 0.2), slide("turn", 0.4)],
-)
-def three_wheels(shown: Shown) -> None:
-    """Each wheel rolls as fast as its place moves along the circle of the base."""
-    forward, left, turn = (
-        shown.number(name) for name in ("forward", "to the left", "turn")
-    )
-    speeds = []
-    for degrees in (60, 180, 300):
-        place = 0.7 * np.exp(1j * np.radians(degrees))
-        moves = complex(forward, left) + 1j * turn * place
-        along = 1j * place / abs(place)
-        speeds.append((moves * along.conjugate()).real / 0.2)
-    shown.says(
-        f"Wheel 1, ahead to the left: {speeds[0]:.9f} rad/s.",
-        f"Wheel 2, behind: {speeds[1]:.9f} rad/s.",
-        f"Wheel 3, ahead to the right: {speeds[2]:.9f} rad/s.",
-    )
-    shown.picture().has_bars(BLUE, speeds)
