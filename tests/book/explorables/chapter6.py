@@ -303,3 +303,28 @@ def two_criteria(shown: Shown) -> None:
     chart = shown.picture()
     chart.has_dots(BLUE, xy[pareto_front(xy)])
     chart.has_dots(VERMILION, xy[[chosen]])
+
+
+@expects(
+    slide("forward", 0.8),
+    slide("to the left", 0.3),
+    slide("turn", 0.75),
+    by_keyboard=[slide("forward", 0.2), slide("turn", 0.4)],
+)
+def three_wheels(shown: Shown) -> None:
+    """Each wheel rolls as fast as its place moves along the circle of the base."""
+    forward, left, turn = (
+        shown.number(name) for name in ("forward", "to the left", "turn")
+    )
+    speeds = []
+    for degrees in (60, 180, 300):
+        place = 0.7 * np.exp(1j * np.radians(degrees))
+        moves = complex(forward, left) + 1j * turn * place
+        along = 1j * place / abs(place)
+        speeds.append((moves * along.conjugate()).real / 0.2)
+    shown.says(
+        f"Wheel 1, ahead to the left: {speeds[0]:.9f} rad/s.",
+        f"Wheel 2, behind: {speeds[1]:.9f} rad/s.",
+        f"Wheel 3, ahead to the right: {speeds[2]:.9f} rad/s.",
+    )
+    shown.picture().has_bars(BLUE, speeds)
