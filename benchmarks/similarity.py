@@ -180,8 +180,8 @@ def classes(
 ) -> Iterator[tuple[list[Pair], dict[tuple[str, str], str]]]:
     """Yield the compared pairs of random classes, and which of them are copies, with the disguise.
 
-    Each class has so many students and exercises of the pool, of which ``copied`` are copied, or all of them. A third
-    person has ``shared`` of these answers too.
+    A class has this number of students and of exercises of the pool. Of the exercises ``copied`` are copied, or all. A
+    third person has ``shared`` of these answers too.
     """
     honest, translated, others = functions("honest"), functions("translated"), known()
     prints = {
@@ -251,7 +251,7 @@ def ringed(
 def _by_taste(
     found: dict[int, ast.Module], rng: random.Random, size: int = 12
 ) -> list[int]:
-    """Return the numbers of so many students' answers, those with fewer loops first, and in each half at random.
+    """Return which answer each of ``size`` students has: those with fewer loops first, and in each half at random.
 
     A class that is larger than the number of answers draws them again.
     """
@@ -270,7 +270,7 @@ def _by_taste(
 
 
 def _drawn(numbers: Sequence[int], many: int, rng: random.Random) -> list[int]:
-    """Return so many of the numbers in random order, each as often as any other."""
+    """Return this many of the numbers in random order, each as often as any other."""
     drawn = list[int]()
     while len(drawn) < many:
         drawn += rng.sample(numbers, len(numbers))

@@ -29,12 +29,8 @@ WHEELS = (
 BASE = np.linalg.inv(WHEELS)
 GAIN = 4.0  # 1/s: an error of 1 m asks for 4 m/s more
 TURN_TIME = 0.8  # s in which the reference turns
-SPEED_RATIO = (
-    1.5  # the base goes at most so many times as fast as the robot of section 2.5
-)
-GREATEST_LEAD = (
-    0.6  # m that the reference may be away from the base when a second begins
-)
+SPEED_RATIO = 1.5  # greatest speed of the base over that of the robot of section 2.5
+GREATEST_LEAD = 0.6  # m from the base to the reference as a second begins
 
 
 def wheel_speeds(velocity: Floats) -> Floats:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from itertools import count
+from typing import Any
 
 import numpy as np
 
 from robonav.deep import ppo_on_episodes
 from robonav.deep.episodes import Draw
 from robonav.networks.policy import NetworkPolicy
-from robonav.networks.torch_lbfgs import one_thread
 from robonav.progress import Progress
 from robonav.robot import (
     REFLEX,
@@ -19,24 +19,21 @@ from robonav.robot import (
     neighbour_slip,
     random_worlds,
 )
-from robonav.validation import check_integer
 
 
-@one_thread()
 def train_in(
     draw: Draw,
     updates: int = 60,
     *,
     reflex: ReflexRule | None = REFLEX,
-    hidden: tuple[int, ...] = (32,),
-    epochs: int = 4,
     batches: int = 8,
     seed: int,
     progress: Progress | None = None,
+    **settings: Any,
 ) -> NetworkPolicy:
     """Train a policy by PPO, with a simulator drawn anew for each update.
 
-    The loop is that of :func:`robonav.deep.ppo_on_episodes`, with the defaults of :func:`robonav.deep.ppo`.
+    The loop is that of :func:`robonav.deep.ppo_on_episodes`, which also checks the arguments.
 
     Parameters
     ----------
@@ -46,16 +43,14 @@ def train_in(
         How often the robots act, and the networks learn from it.
     reflex : callable, optional
         What a robot does before the policy is asked.
-    hidden : tuple of int
-        Units of each hidden layer.
-    epochs : int
-        How often an update goes through the steps of all robots.
     batches : int
         Minibatches into which an epoch divides the steps.
     seed : int
         Of the weights, the simulators, the actions and the minibatches.
     progress : callable, optional
         Called as ``progress(updates done, updates)``.
+    **settings
+        Other keyword arguments of :func:`robonav.deep.ppo_on_episodes`, which also has their defaults.
 
     Returns
     -------
@@ -68,17 +63,22 @@ def train_in(
     >>> train_in(randomised(robots=2, obstacles=5), updates=1, seed=0).network.sizes
     (12, 32, 5)
     """
-    check_integer("updates", updates, at_least=1)
     done = count(1)
 
     def report(_: Simulator) -> None:
+        """Say that one more update is done."""
         if progress is not None:
             progress(next(done), updates)
 
     learned = ppo_on_episodes(
-        draw, updates, reflex=reflex, after=report, hidden=hidden, epochs=epochs,
-        batches=batches, seed=seed,
-    )  # fmt: skip
+        draw,
+        updates,
+        reflex=reflex,
+        after=report,
+        batches=batches,
+        seed=seed,
+        **settings,
+    )
     return NetworkPolicy(learned.policy, Encoder(), temperature=1.0)
 
 
@@ -136,6 +136,7 @@ def randomised(robots: int = 32, obstacles: int = 20) -> Draw:
     """
 
     def draw(rng: np.random.Generator) -> Simulator:
+        """Put robots into new worlds, with another speed, slip and noise."""
         return Simulator(
             random_worlds(robots, obstacles, seed=rng),
             rng.uniform(1.5, 3.0),

@@ -10,6 +10,7 @@ import torch
 from numpy.typing import NDArray
 
 from robonav.networks.policy import NetworkPolicy
+from robonav.networks.torch_lbfgs import one_thread
 from robonav.networks.torch_module import as_module, as_network
 from robonav.nnql.task import ACTIONS, EXPLORING, REPLAYING, WORLDS, make_rng
 from robonav.robot import (
@@ -23,6 +24,7 @@ from robonav.robot import (
 from robonav.robot.environment_settings import arrival_or_collision
 from robonav.robot.rollout import ReflexRule
 
+from ._arguments import checked
 from .gradient_ascent import adam, ascend
 from .networks import ActorCritic, random_actor_critic
 from .ppo import Rollout, batch_of, minibatches, objective
@@ -31,6 +33,8 @@ Draw = Callable[[np.random.Generator], Simulator]
 """``draw(rng)`` returns a simulator whose robots are at their start."""
 
 
+@checked
+@one_thread()
 def ppo_on_episodes(
     draw: Draw,
     updates: int,
@@ -50,43 +54,18 @@ def ppo_on_episodes(
 ) -> ActorCritic:
     """Train one policy for all robots of simulators that are drawn anew for each update, by PPO.
 
-    Each robot is an actor of :func:`robonav.deep.ppo`, which also says what the settings mean. They share the networks.
+    Each robot is an actor of :func:`robonav.deep.ppo`, with its settings. All share the networks.
 
     Parameters
     ----------
     draw : callable
         ``draw(rng)`` returns a simulator whose robots are at their start.
-    updates : int
-        How often the robots act, and the networks learn from it.
     reflex : callable or None
         What a robot does before the policy is asked.
     after : callable
         Called as ``after(simulator)`` with the simulator of each update, when its episodes have ended.
     hidden : sequence of int
         Units of each hidden layer.
-    epochs : int
-        How often an update goes through the steps of all robots.
-    batches : int
-        Minibatches into which an epoch divides the steps.
-    clip : float
-        epsilon of Eq. (7) of PPO.
-    discount : float
-        gamma of its Eqs. (11) and (12).
-    trace_decay : float
-        lambda of its Eq. (11).
-    gradient_step : float
-        Step of Adam.
-    value_weight : float
-        c_1 of its Eq. (9), the weight of the error of the value function.
-    entropy_weight : float
-        c_2 of its Eq. (9), the weight of the entropy.
-    seed : int
-        Of the weights, the simulators, the actions and the minibatches.
-
-    Returns
-    -------
-    ActorCritic
-        The trained networks.
 
     Examples
     --------

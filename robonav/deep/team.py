@@ -6,14 +6,13 @@ Gupta et al. 2017). To a robot the others are moving obstacles that get better w
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robonav.networks.policy import NetworkPolicy
-from robonav.networks.torch_lbfgs import one_thread
 from robonav.robot import REFLEX, Encoder, Outcome, Simulator
 from robonav.robot.rollout import ReflexRule
 from robonav.robot.team import TeamSimulator, random_teams
@@ -67,7 +66,6 @@ class TeamTraining:
 
 
 @checks(TEAM_RULES)
-@one_thread()
 def train_team(
     robots: int = 8,
     updates: int = 60,
@@ -77,16 +75,8 @@ def train_team(
     speed: float = 2.0,
     max_steps: int = 300,
     reflex: ReflexRule | None = REFLEX,
-    hidden: Sequence[int] = (32,),
-    epochs: int = 4,
-    batches: int = 16,
-    clip: float = 0.2,
-    discount: float = 0.99,
-    trace_decay: float = 0.95,
-    gradient_step: float = 0.01,
-    value_weight: float = 0.5,
-    entropy_weight: float = 0.03,
     seed: int,
+    **settings: Any,
 ) -> TeamTraining:
     """Train one policy for all robots by PPO with shared weights.
 
@@ -110,26 +100,10 @@ def train_team(
         A robot's episode ends as "out of steps" after this many seconds.
     reflex : callable, optional
         What a robot does before the policy is asked.
-    hidden : sequence of int
-        Units of each hidden layer.
-    epochs : int
-        How often an update goes through the steps of all robots.
-    batches : int
-        Minibatches into which an epoch divides the steps.
-    clip : float
-        epsilon of Eq. (7) of :func:`robonav.deep.ppo`.
-    discount : float
-        gamma of its Eqs. (11) and (12).
-    trace_decay : float
-        lambda of its Eq. (11).
-    gradient_step : float
-        Step of Adam.
-    value_weight : float
-        c_1 of its Eq. (9), the weight of the error of the value function.
-    entropy_weight : float
-        c_2 of its Eq. (9), the weight of the entropy.
     seed : int
         Of the weights, the maps, the actions and the minibatches.
+    **settings
+        Other keyword arguments of :func:`ppo_on_episodes`, which also has their defaults.
 
     Returns
     -------
@@ -150,19 +124,18 @@ def train_team(
     went = []
 
     def draw(rng: np.random.Generator) -> TeamSimulator:
+        """Put teams at the start of new maps."""
         teams = random_teams(maps, robots, obstacles, seed=rng)
         return TeamSimulator(teams, speed, max_steps=max_steps)
 
     def record(simulator: Simulator) -> None:
+        """Note how the episodes of an update went."""
         assert isinstance(simulator, TeamSimulator)
         arrived = simulator.outcome == Outcome.ARRIVED
         went.append((arrived.mean(), simulator.met.mean(), simulator.steps.sum()))
 
     learned = ppo_on_episodes(
-        draw, updates, reflex=reflex, after=record, hidden=hidden, epochs=epochs,
-        batches=batches, clip=clip, discount=discount, trace_decay=trace_decay,
-        gradient_step=gradient_step, value_weight=value_weight,
-        entropy_weight=entropy_weight, seed=seed,
-    )  # fmt: skip
+        draw, updates, reflex=reflex, after=record, seed=seed, **settings
+    )
     arrived, met, steps = np.array(went).T
     return TeamTraining(learned, Encoder(), arrived, met, steps.astype(np.int64))

@@ -202,7 +202,7 @@ def policy_iteration(
         # 9, improve: the best action of each state, where it gains something
         q = mdp.rewards + gamma * (transitions @ values).T  # Q_pi (S, A)  Eq. (2.15)
         gains = q - values[:, None]  # Q_pi(s, a) - V_pi(s)
-        better = gains.max(axis=1) > least_difference(values, gamma, tolerance)
+        better = gains.max(axis=1) > gain_that_counts(mdp, values, tolerance)
         policy = np.where(better, q.argmax(axis=1), policy)  # 10  Eq. (2.25)
         converged = not better.any()
         if converged:  # 11: no action is better, so V_pi is optimal
@@ -215,10 +215,10 @@ def dense(matrix: Any) -> Floats:
     return matrix.toarray() if sp.issparse(matrix) else np.asarray(matrix)
 
 
-def least_difference(values: Floats, gamma: float, tolerance: float) -> float:
-    """Return the gain of an action that counts. Of two equal actions, rounding makes one look better by less."""
-    rounding = 4 * np.spacing(abs(values).max()) / (1 - gamma)
-    return max(tolerance * (1 - gamma), rounding)
+def gain_that_counts(mdp: FiniteMDP, values: Floats, tolerance: float) -> float:
+    """Return the least gain of an action that counts. Of two equal actions, rounding makes one look better by less."""
+    rounding = 4 * np.spacing(abs(values).max()) / (1 - mdp.discount)
+    return max(least_gain(mdp, tolerance), rounding)
 
 
 @planner(start=first_values_below, limit=evaluation_residual, twin="_fast_planners")
