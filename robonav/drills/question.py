@@ -415,20 +415,22 @@ class Question:
         return self.asked.clear
 
     @property
-    def decimals(self) -> str:
-        """How many decimals the numbers of an answer need, in words.
-
-        Empty where no number is asked for, where the text says it, and where all numbers are whole.
-        """
+    def decimal_places(self) -> int:
+        """How many decimals the numbers of an answer need: 0 where no number is asked for or all numbers are whole."""
         asked = self.asked
-        if not isinstance(asked, Number | Table) or "decimal" in self.text:
-            return ""
+        if not isinstance(asked, Number | Table):
+            return 0
         if isinstance(asked, Number):
             numbers = [asked.answer, *asked.wrong.values()]
         else:
             numbers = [*chain(*asked.answer), *chain(*chain(*asked.wrong.values()))]
         whole = all(round(float(number), 8).is_integer() for number in numbers)
-        return "" if whole else words(decimals(asked.tolerance))
+        return 0 if whole else decimals(asked.tolerance)
+
+    @property
+    def decimals(self) -> str:
+        """How many decimals the numbers of an answer need, in words; empty where the text says it."""
+        return "" if "decimal" in self.text else words(self.decimal_places)
 
     def judge(self, answer: Any) -> Verdict:
         """Judge an answer of the kind that is asked for.

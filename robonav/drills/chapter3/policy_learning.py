@@ -280,11 +280,13 @@ def perfect_test(rng: Rng) -> Question:
 
 
 @drill("policy-learning", "A lucky test")
-def lucky_test(rng: Rng) -> Question:
+def lucky_test(rng: Rng) -> Question | None:
     """Compute how often a policy that fails sometimes passes a short test."""
     one_in = int(rng.choice([4, 5, 8, 10, 12, 15, 20, 25, 30, 40, 50]))
     maps = int(rng.integers(4, 26))
     passed = (1 - 1 / one_in) ** maps
+    if passed < 0.05:
+        return None  # else 0 would be right within the tolerance
     return Question(
         f"A policy fails in one map of ${one_in}$. With which probability does it arrive in all of ${maps}$ new maps?",
         Number(

@@ -352,7 +352,7 @@ def _step_of_nnql(rng: Rng, number: int, pairs: int) -> list[Line]:
 def order_of_nnql(rng: Rng) -> Question:
     """Put what NNQL does in one step of an episode in order."""
     number = int(rng.integers(3, 30))
-    pairs = int(rng.integers(1, number + 1))
+    pairs = int(rng.integers(2, number + 1))
     lines = _step_of_nnql(rng, number, pairs) + _step_of_nnql(rng, number + 1, pairs + 1)  # fmt: skip
     asked = some_in_order(rng, lines, 5)
     return Question(

@@ -10,7 +10,7 @@ from typing import Any
 
 from robonav.counting import counted
 
-from ..question import Asked, Choice, Number, Order, Place, Table
+from ..question import Asked, Choice, Number, Order, Place, Question, Table
 from .answers import asked_text, options, points
 from .boxes import BOLD, ITALIC, UPRIGHT, Box, Run, registered, width
 from .selection import Drawn
@@ -462,7 +462,7 @@ def _table(asked: Table, content: Sequence[Sequence[str]], measure: float) -> _B
 def _solution(one: Drawn, measure: float) -> list[_Block]:
     """The answer, the way to it, and the usual mistakes."""
     asked = one.question.asked
-    parts = [*_answer(asked, measure), _space(3)]
+    parts = [*_answer(one.question, measure), _space(3)]
     parts.append(_text(one.question.explanation, measure))
     if mistakes := _mistakes(asked):
         parts += [_space(4), _text("Usual mistakes", measure, SMALL, ITALIC)]
@@ -470,11 +470,16 @@ def _solution(one: Drawn, measure: float) -> list[_Block]:
     return parts
 
 
-def _answer(asked: Asked, measure: float) -> list[_Block]:
+def _answer(question: Question, measure: float) -> list[_Block]:
+    """The right answer, with as many decimals as a student is asked for."""
+    asked = question.asked
     if isinstance(asked, Choice):
         return [_option(one.text, measure, one.right) for one in options(asked)]
     if isinstance(asked, Table):
-        content = [[printed(number) for number in row] for row in asked.answer]
+        content = [
+            [with_decimals(number, question.decimal_places) for number in row]
+            for row in asked.answer
+        ]
         return [_table(asked, content, measure)]
     if isinstance(asked, Order):
         shown = sorted(asked.steps)
@@ -483,7 +488,8 @@ def _answer(asked: Asked, measure: float) -> list[_Block]:
     if isinstance(asked, Place):
         return [_text(f"**Answer: {' or '.join(asked.right)}**", measure)]
     unit = f" {asked.unit}" if asked.unit else ""
-    return [_text(f"**Answer: {printed(asked.answer)}{unit}**", measure)]
+    number = with_decimals(asked.answer, question.decimal_places)
+    return [_text(f"**Answer: {number}{unit}**", measure)]
 
 
 def _mistakes(asked: Asked) -> list[str]:
@@ -501,6 +507,19 @@ def _mistakes(asked: Asked) -> list[str]:
         + f": {hint}"
         for hint, table in asked.wrong.items()
     ]
+
+
+def with_decimals(number: float, places: int) -> str:
+    """Return a number with so many decimals, or as a person writes it if none are asked for.
+
+    Examples
+    --------
+    >>> with_decimals(0.625, 1), with_decimals(-2, 2), with_decimals(0.625, 0)
+    ('0.6', '−2.00', '0.625')
+    """
+    if places == 0:
+        return printed(number)
+    return f"{round(float(number), places) + 0.0:.{places}f}".replace("-", "−")
 
 
 def printed(number: float) -> str:

@@ -76,6 +76,9 @@ def texts(question: Question) -> list[str]:
 def check(question: Question) -> None:
     assert question.clear
     assert question.judge(right_answer(question)).right
+    if places := question.decimal_places:
+        rounded = np.round(np.array(right_answer(question), float), places).tolist()
+        assert question.judge(rounded).right
     assert any(hint for hint, _ in mistakes(question)), "no usual mistake has a hint"
     for hint, answer in mistakes(question):
         verdict = question.judge(answer)

@@ -19,7 +19,7 @@ from robonav.drills.export import (
 )
 from robonav.drills.export import formula as formulas
 from robonav.drills.export.answers import asked_text, options, points
-from robonav.drills.export.paper import INDENT, MARGIN, SIZES, printed
+from robonav.drills.export.paper import INDENT, MARGIN, SIZES, with_decimals
 from robonav.drills.export.svg import MINUS, Label, read
 
 pytest.importorskip("reportlab")
@@ -94,7 +94,8 @@ def test_solutions_have_answers_and_explanations(paper, solutions) -> None:
     for one in paper.questions:
         asked = one.question.asked
         if isinstance(asked, Number):
-            assert f"Answer: {printed(asked.answer)}" in solutions
+            number = with_decimals(asked.answer, one.question.decimal_places)
+            assert f"Answer: {number}" in solutions
         if isinstance(asked, Place):
             assert f"Answer: {' or '.join(asked.right)}" in solutions
         for part in words(one.question.explanation):
