@@ -25,6 +25,7 @@ from filelock import FileLock, Timeout
 
 from robonav import atomic
 from robonav._version import __version__
+from robonav.processes import in_processes
 from robonav.progress import Progress
 
 from . import ledger, paths, report
@@ -284,11 +285,7 @@ def _marked(
         for loaded in [handin.load()]
     )
     if scheduler is None:
-        from joblib import Parallel, delayed
-
-        yield from Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)(
-            delayed(_record)(*call) for call in calls
-        )
+        yield from in_processes(_record, calls, jobs)
         return
     try:
         from distributed import Client, as_completed

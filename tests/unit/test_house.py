@@ -23,6 +23,7 @@ BASE = {
     "atomic",
     "compilation",
     "counting",
+    "processes",
     "progress",
     "style",
     "validation",

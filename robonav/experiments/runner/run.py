@@ -9,6 +9,7 @@ from concurrent.futures import BrokenExecutor
 from pathlib import Path
 
 from robonav.errors import WorkerLost
+from robonav.processes import in_processes
 from robonav.progress import Progress
 from robonav.validation import check_one_of
 
@@ -179,13 +180,11 @@ def _here(
 
     If a process dies, the unfinished runs start again.
     """
-    from joblib import Parallel, delayed
-
     waiting, deaths = dict.fromkeys(units), 0
     while waiting:
-        work = [delayed(run_unit)(experiment, unit, scale) for unit in waiting]
+        calls = [(experiment, unit, scale) for unit in waiting]
         try:
-            for done in Parallel(n_jobs=jobs, return_as="generator_unordered")(work):
+            for done in in_processes(run_unit, calls, jobs):
                 del waiting[done[0]]
                 yield done
         except BrokenExecutor:
