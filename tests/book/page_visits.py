@@ -27,6 +27,10 @@ BROKEN = """() => ({
   formulas: [...document.querySelectorAll("mjx-merror")].map((node) => node.textContent),
   cut: [...document.querySelectorAll("div.math, div.math mjx-container")]
     .filter((place) => place.scrollWidth > place.clientWidth + 1).map((place) => place.textContent.slice(0, 60)),
+  barred: [...document.querySelectorAll("span.math")].filter((place) => {
+    const { overflowX, scrollbarWidth } = getComputedStyle(place);
+    return place.scrollWidth > place.clientWidth && overflowX !== "hidden" && scrollbarWidth !== "none";
+  }).map((place) => place.textContent.slice(0, 60)),
   pictures: [...document.images].filter((image) => image.complete && !image.naturalWidth).map((image) => image.src),
   unnamed: [...document.images].filter((image) => !image.alt && image.offsetParent).map((image) => image.src),
 })"""

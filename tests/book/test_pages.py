@@ -26,6 +26,7 @@ def test_page_was_built_whole(site: Path, page_name: str) -> None:
 WHOLE: dict[str, list[str]] = {
     "formulas": [],
     "cut": [],
+    "barred": [],
     "pictures": [],
     "unnamed": [],
 }
