@@ -51,7 +51,7 @@ function fit(body) {
 
 const PICTURE = "canvas, svg[viewBox]";
 const SEEN = ".pictures, .plane, .grids, .curves, .charts, .legend, .viewer, .scroll, table, figure, canvas, svg";
-const PAGE_ONLY = ".my-drives, .kept, .file, .kernel, .snapshots, .readings, .hint"; // downloads, and what a lecturer says
+const PAGE_ONLY = ".my-demonstrations, .kept, .file, .kernel, .snapshots, .readings, .hint"; // downloads, and what a lecturer says
 
 /** Whether something holds a picture, and not only the sign on a button or what is folded. */
 const pictured = (part) => part.matches(".pictures") || part.querySelector(".pictures") !== null || [part, ...part.querySelectorAll(PICTURE)]

@@ -5,7 +5,7 @@ const MAPS_TO_CORRECT = 400;
 const LEARNING = { sizes: [12, 8, CHOICES], seed: 0, regularisation: 0.1, iterations: 300 };
 const [BACK, LONG] = [5, 120]; // seconds
 const [DRIVING_PACE, SLOWEST] = [12, 100]; // steps a second; milliseconds a step where the reader steers
-const BASES = ["one demonstration of the expert", "my drives"];
+const BASES = ["one demonstration of the expert", "my demonstrations"];
 
 // ---- The episode ----------------------------------------------------------------------------------------------------
 
@@ -35,7 +35,7 @@ export function sharedEpisode(first) {
       steps.length = left;
       moments.length = left + 1;
     },
-    /** What the reader did, as a drive to learn from. @returns {RecordedDrive} */
+    /** What the reader did, as a demonstration to learn from. @returns {Demonstration} */
     corrections: () => ({ world: first, speed: SPEED, outcome: now().outcome, steps: steps.filter(({ by }) => by === "reader") }),
   };
 }
@@ -44,7 +44,7 @@ export function sharedEpisode(first) {
 export function nextFailure(policy, from) {
   for (let map = from; map < MAPS_TO_CORRECT; map += 1) {
     const [world] = randomWorlds(1, { seed: FIRST_CORRECTED + map, obstacles: 10 });
-    if (driveWith(policy, world, { speed: SPEED, maxSteps: 200 }).outcome !== "arrived") return { map, world };
+    if (rollout(policy, world, { speed: SPEED, maxSteps: 200 }).outcome !== "arrived") return { map, world };
   }
   return null;
 }
@@ -59,7 +59,7 @@ function render({ model, el }) {
   let [base, corrected, robots, now] = [0, [], [], null];
   let [episode, map, hands, running, timer, planner] = [null, -1, false, false, null, computerExpert()];
 
-  const mine = () => keptDrives().filter(({ outcome }) => outcome === "arrived");
+  const mine = () => keptDemonstrations().filter(({ outcome }) => outcome === "arrived");
   const dataset = () => [...(base === 0 ? experts.slice(0, 1) : mine()), ...corrected];
   const count = () => corrected.flatMap(effective).length;
 
@@ -86,8 +86,8 @@ function render({ model, el }) {
       arrived: own ? `Arrived, with ${own} ${own === 1 ? "correction" : "corrections"} of yours. Correct another map, or train. Your corrections last until you leave the page or change what the robot first learns from.` : "Arrived without you.",
       collided: `It collided. Go back ${BACK} seconds and take over.`,
     }[outcome];
-    const drives = hands ? (episode.asks() ? "You steer: the robot waits for you." : "You steer, and the reflex moves the robot.") : running ? (episode.steps.length > LONG ? "It may be going in circles: take over." : `The robot drives. Press ${whatSteers()} to take over.`) : "The robot will fail in this map. Press Drive, and take over before it does.";
-    told.textContent = `Map ${map + 1}, ${episode.steps.length} s. ${hint || (ended ?? drives)}`;
+    const driving = hands ? (episode.asks() ? "You steer: the robot waits for you." : "You steer, and the reflex moves the robot.") : running ? (episode.steps.length > LONG ? "It may be going in circles: take over." : `The robot drives. Press ${whatSteers()} to take over.`) : "The robot will fail in this map. Press Drive, and take over before it does.";
+    told.textContent = `Map ${map + 1}, ${episode.steps.length} s. ${hint || (ended ?? driving)}`;
     board.canvas.setAttribute("aria-label", told.textContent);
     play.textContent = running ? "Pause" : hands ? "Give it back" : "Drive";
     play.disabled = outcome !== "running";
@@ -179,7 +179,7 @@ function render({ model, el }) {
       if (examples.m === 0) return "There is nothing to learn from: drive a few maps in the playground, or begin with the expert's demonstration.";
       const known = baselines.every(({ outcomes }) => outcomes.length === trial.maps);
       if (!known) for (const each of baselines) each.outcomes = [];
-      const begun = base === 0 ? "one demonstration of the expert" : `${mine().length} of my drives`;
+      const begun = base === 0 ? "one demonstration of the expert" : `${mine().length} of my demonstrations`;
       const number = nextNumber("DAgger, robot", [...keptRobots(), ...robots.map(({ name }) => ({ name: `DAgger, ${name}` }))].map(({ name }) => name));
       const { regularisation, iterations, seed } = LEARNING;
       now = {

@@ -35,12 +35,12 @@ class DaggerLab(KernelTraining):
         "simulator", "maps", "episode", "steering", "files",
         "learning/random", "learning/worlds", "learning/network", "learning/lbfgs",
         "learning/astar", "learning/trials", "learning/worker", "learning/training_panel",
-        "learning/kernel_panel", "drives", "kept_robots", "imitation", "dagger_lab",
+        "learning/kernel_panel", "kept_demonstrations", "kept_robots", "imitation", "dagger_lab",
     )  # fmt: skip
     _css = style_sheet(
         "maps",
         "steering",
-        "drives",
+        "kept_demonstrations",
         "learning/training_panel",
         "imitation",
         "dagger_lab",

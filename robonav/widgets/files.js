@@ -129,40 +129,40 @@ export async function npzRead(buffer) {
   return arrays;
 }
 
-// ---- Drives as demonstrations ---------------------------------------------------------------------------------------
+// ---- Files of demonstrations ----------------------------------------------------------------------------------------
 
 /**
- * @typedef {{pose: Pose, sensing: Sensing, action: number}} DriveStep
- * @typedef {{world: World, speed: number, steps: DriveStep[], outcome: string}} RecordedDrive outcome: arrived, collided,
+ * @typedef {{pose: Pose, sensing: Sensing, action: number}} DemonstrationStep
+ * @typedef {{world: World, speed: number, steps: DemonstrationStep[], outcome: string}} Demonstration outcome: arrived, collided,
  *   or running where it was given up
  */
 
 const OUTCOME_CODES = { arrived: 1, collided: 2, running: 3 };
 const DEMONSTRATIONS = "robonav demonstrations 1";
 
-/** Drives of one speed as a file that robonav.lfd.load_demonstrations reads. @param {RecordedDrive[]} drives */
-export function demonstrationsFile(drives) {
-  const d = drives.length;
-  const worlds = drives.map(({ world }) => world);
+/** Demonstrations of one speed as a file that robonav.lfd.load_demonstrations reads. @param {Demonstration[]} demonstrations */
+export function demonstrationsFile(demonstrations) {
+  const d = demonstrations.length;
+  const worlds = demonstrations.map(({ world }) => world);
   const slots = Math.max(...worlds.map(({ obstacles }) => obstacles.length));
   const nothing = { speed: 0, heading: 0, x: 0, y: 0, a: 0, b: 0, turned: 0 };
   const obstacles = worlds.flatMap((world) => Array.from({ length: slots }, (_, m) => world.obstacles[m] ?? nothing));
-  const steps = drives.flatMap((drive) => drive.steps);
+  const steps = demonstrations.flatMap((demonstration) => demonstration.steps);
   const k = steps.length;
   const floats = (shape, values) => ({ descr: "<f8", shape, values });
   const wholes = (shape, values) => ({ descr: "<i8", shape, values });
   const flags = (shape, values) => ({ descr: "|b1", shape, values });
   return npz({
     format: { shape: [], values: DEMONSTRATIONS },
-    speed: floats([], [drives[0].speed]),
-    trajectory: wholes([k], drives.flatMap((drive, number) => drive.steps.map(() => number))),
+    speed: floats([], [demonstrations[0].speed]),
+    trajectory: wholes([k], demonstrations.flatMap((demonstration, number) => demonstration.steps.map(() => number))),
     actions: wholes([k], steps.map(({ action }) => action)),
     poses: floats([k, 3], steps.flatMap(({ pose }) => [pose.x, pose.y, pose.heading])),
     ranges: floats([k, 9], steps.flatMap(({ sensing }) => sensing.ranges)),
     walls: flags([k, 9], steps.flatMap(({ sensing }) => sensing.walls)),
     target_region: wholes([k], steps.map(({ sensing }) => sensing.region)),
     target_seen: flags([k], steps.map(({ sensing }) => sensing.seen)),
-    outcome: { descr: "|i1", shape: [d], values: drives.map(({ outcome }) => OUTCOME_CODES[outcome]) },
+    outcome: { descr: "|i1", shape: [d], values: demonstrations.map(({ outcome }) => OUTCOME_CODES[outcome]) },
     "worlds.kinds": { descr: "|i1", shape: [d, slots], values: obstacles.map((o) => (o === nothing ? 0 : o.circle ? 1 : 2)) },
     "worlds.shapes": floats([d, slots, 3], obstacles.flatMap(({ circle, a, b, turned }) => [a, circle ? 0 : b, circle ? 0 : turned])),
     "worlds.centres": floats([d, slots, 2], obstacles.flatMap(({ x, y }) => [x, y])),
@@ -176,11 +176,11 @@ export function demonstrationsFile(drives) {
 }
 
 /**
- * The drives in a file that robonav.lfd.save_demonstrations or this page wrote.
+ * The demonstrations in a file that robonav.lfd.save_demonstrations or this page wrote.
  * @param {ArrayBuffer} buffer
- * @returns {Promise<RecordedDrive[]>}
+ * @returns {Promise<Demonstration[]>}
  */
-export async function drivesFromFile(buffer) {
+export async function demonstrationsFromFile(buffer) {
   const refuse = (why) => new Error(`The file must hold demonstrations saved by robonav: ${why}.`);
   let arrays = null;
   try {
@@ -189,14 +189,14 @@ export async function drivesFromFile(buffer) {
     throw refuse("it is damaged or of another kind");
   }
   if (arrays.format?.values !== DEMONSTRATIONS) throw refuse("it does not say so");
-  const [steps, drives] = [arrays.actions?.shape[0], arrays.outcome?.shape[0]];
+  const [steps, demonstrations] = [arrays.actions?.shape[0], arrays.outcome?.shape[0]];
   const slots = arrays["worlds.kinds"]?.shape[1];
   const expected = {
     speed: [], trajectory: [steps], actions: [steps], poses: [steps, 3], ranges: [steps, 9], walls: [steps, 9],
-    target_region: [steps], target_seen: [steps], outcome: [drives], "worlds.kinds": [drives, slots],
-    "worlds.shapes": [drives, slots, 3], "worlds.centres": [drives, slots, 2], "worlds.speeds": [drives, slots],
-    "worlds.headings": [drives, slots], "worlds.starts": [drives, 2], "worlds.targets": [drives, 2],
-    "worlds.keys": [drives, 2], "worlds.size": [],
+    target_region: [steps], target_seen: [steps], outcome: [demonstrations], "worlds.kinds": [demonstrations, slots],
+    "worlds.shapes": [demonstrations, slots, 3], "worlds.centres": [demonstrations, slots, 2], "worlds.speeds": [demonstrations, slots],
+    "worlds.headings": [demonstrations, slots], "worlds.starts": [demonstrations, 2], "worlds.targets": [demonstrations, 2],
+    "worlds.keys": [demonstrations, 2], "worlds.size": [],
   };
   for (const [name, shape] of Object.entries(expected)) {
     const { shape: got, values } = arrays[name] ?? { shape: null };
@@ -210,7 +210,7 @@ export async function drivesFromFile(buffer) {
   };
   const row = Object.fromEntries(Object.keys(expected).map((name) => [name, rows(name)]));
   const [[size], [speed]] = [arrays["worlds.size"].values, arrays.speed.values];
-  const made = Array.from({ length: drives }, (_, d) => {
+  const made = Array.from({ length: demonstrations }, (_, d) => {
     const shapes = row["worlds.shapes"](d);
     const centres = row["worlds.centres"](d);
     const obstacles = row["worlds.kinds"](d).map((kind, m) => ({
@@ -221,13 +221,13 @@ export async function drivesFromFile(buffer) {
     const code = arrays.outcome.values[d];
     return { world, speed, steps: [], outcome: Object.keys(OUTCOME_CODES).find((name) => OUTCOME_CODES[name] === code) };
   });
-  if (made.some(({ outcome }) => outcome === undefined)) throw refuse("a drive ends in a way that there is not");
+  if (made.some(({ outcome }) => outcome === undefined)) throw refuse("a demonstration ends in a way that there is not");
   for (let k = 0; k < steps; k += 1) {
-    const [drive, action] = [made[arrays.trajectory.values[k]], arrays.actions.values[k]];
+    const [demonstration, action] = [made[arrays.trajectory.values[k]], arrays.actions.values[k]];
     const [region] = row.target_region(k);
-    if (!drive || !(action in ROBOT.actions) || !(region >= 1 && region <= ROBOT.sensors)) throw refuse("a step of it is none of the robot's");
+    if (!demonstration || !(action in ROBOT.actions) || !(region >= 1 && region <= ROBOT.sensors)) throw refuse("a step of it is none of the robot's");
     const [x, y, heading] = row.poses(k);
-    drive.steps.push({ pose: { x, y, heading }, sensing: { ranges: row.ranges(k), walls: row.walls(k), region, seen: row.target_seen(k)[0] }, action });
+    demonstration.steps.push({ pose: { x, y, heading }, sensing: { ranges: row.ranges(k), walls: row.walls(k), region, seen: row.target_seen(k)[0] }, action });
   }
   return made;
 }

@@ -92,10 +92,10 @@ function render({ model, el }) {
     frame = 0;
     t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * STEPS_A_SECOND);
     last = time;
-    const drives = () => running && !mine && episode.outcome === "running" && !isLost();
-    if (t >= 1 && drives()) step(decide(episode).action);
+    const driving = () => running && !mine && episode.outcome === "running" && !isLost();
+    if (t >= 1 && driving()) step(decide(episode).action);
     board.draw(t);
-    if (t < 1 || drives()) wake();
+    if (t < 1 || driving()) wake();
   }
   const wake = () => {
     if (frame) return;

@@ -1,4 +1,4 @@
-// What the labs of chapter 3 share: examples from drives, learning and driving new maps, the robots' rates, a map to watch.
+// What the labs of chapter 3 share: examples from demonstrations, learning and driving new maps, the robots' rates, a map to watch.
 
 const [CHOICES, SPEED, MOST_STEPS] = [5, 2, 500];
 const ENCODER = { sensors: [1, 2, 3, 4, 5, 6, 7, 8, 9], walls: false, target: "sine-cosine" };
@@ -10,7 +10,7 @@ const STRAIGHT = { name: "always straight on", rule: "straight" };
 /**
  * The expert's demonstrations from one to before another, replayed from their actions in the worlds of a seed.
  * @param {{seed: number, obstacles: number, actions: string[]}} expert a digit a step
- * @returns {RecordedDrive[]}
+ * @returns {Demonstration[]}
  */
 export function replayed({ seed, obstacles, actions }, from = 0, to = actions.length) {
   return worldKeysOf(to, seed).slice(from).map((key, i) => {
@@ -21,9 +21,9 @@ export function replayed({ seed, obstacles, actions }, from = 0, to = actions.le
   });
 }
 
-/** Inputs and labels of the steps to learn from, Eqs. (3.29) and (3.30). @param {RecordedDrive[]} drives @returns {Examples} */
-export function examplesFrom(drives, encoder = ENCODER) {
-  const pairs = drives.flatMap(effective);
+/** Inputs and labels of the steps to learn from, Eqs. (3.29) and (3.30). @param {Demonstration[]} demonstrations @returns {Examples} */
+export function examplesFrom(demonstrations, encoder = ENCODER) {
+  const pairs = demonstrations.flatMap(effective);
   return examplesOf(pairs.map(({ sensing }) => encode(encoder, sensing)), pairs.map(({ action }) => Array.from({ length: CHOICES }, (_, k) => (k === action ? 1 : 0))));
 }
 
@@ -51,7 +51,7 @@ export function* imitate({ examples, network, start = null, sizes, seed, regular
   const policies = [{ network: learned, encoder }, ...rivals.map((rival) => (rival.network ? { ...rival, network: networks(rival.network)() } : rival))]; // 8
   const worlds = randomWorlds(trial.maps, trial);
   for (let map = 0; map < trial.maps; map += 1) {
-    const episodes = policies.map((policy) => driveWith(policy, worlds[map], { speed: SPEED, maxSteps: MOST_STEPS }));
+    const episodes = policies.map((policy) => rollout(policy, worlds[map], { speed: SPEED, maxSteps: MOST_STEPS }));
     const path = episodes[0].poses.map(({ x, y }) => [x, y]);
     yield { done: steps + map + 1, total, live: { map, path, outcomes: episodes.map(({ outcome }) => outcome) } };
   }
@@ -125,7 +125,7 @@ function viewer({ world, robots, maps }) {
     const list = robots();
     robot = Math.min(robot, list.length - 1);
     if (robot < 0) return;
-    episode = driveWith(list[robot].policy, world(map), { speed: SPEED, maxSteps: MOST_STEPS });
+    episode = rollout(list[robot].policy, world(map), { speed: SPEED, maxSteps: MOST_STEPS });
     paint(episode.poses, colours[episode.outcome]);
     const said = `${list[robot].name}, map ${map + 1}: ${episode.outcome} after ${episode.poses.length - 1} s.`;
     told.textContent = said;

@@ -1,18 +1,18 @@
-// Imitation lab: a robot learns from the reader's drives, in the page, and is tested in new maps.
+// Imitation lab: a robot learns from the reader's demonstrations, in the page, and is tested in new maps.
 
-const SOURCES = ["my drives", "the expert's demonstrations", "both"];
+const SOURCES = ["my demonstrations", "the expert's demonstrations", "both"];
 const HIDDEN = [1, 2, 4, 8, 16, 32];
 const DECAYS = [0, 0.01, 0.03, 0.1, 0.3, 1, 3, 10];
 const ITERATIONS = [1, 3, 10, 30, 100, 300, 1000];
 const OBSTACLES = [10, 20, 30];
 const FEW = 25; // of the expert's demonstrations, as on the page
 const NO_STEP = "These demonstrations have no step with something in range, so there is nothing to learn from.";
-const NO_DRIVE = "There is nothing to learn from: drive a few maps in the playground, or choose the expert's demonstrations.";
+const NO_DEMONSTRATION = "There is nothing to learn from: drive a few maps in the playground, or choose the expert's demonstrations.";
 /** What is said while the expert's demonstrations are learned from because the reader has none that arrived. */
 const withoutOwn = (kept) => {
-  if (kept) return `They are the expert's: none of your ${kept} ${kept === 1 ? "drive" : "drives"} has arrived yet.`;
-  const apart = location.protocol === "file:" ? " Some browsers, such as Firefox, keep the drives of each page on a disk apart: press Download all where you drive, and load the file here." : "";
-  return `They are the expert's: no drive of yours is kept here.${apart}`;
+  if (kept) return `They are the expert's: none of your ${kept} ${kept === 1 ? "demonstration" : "demonstrations"} has arrived yet.`;
+  const apart = location.protocol === "file:" ? " Some browsers, such as Firefox, keep the demonstrations of each page on a disk apart: press Download all where you drive, and load the file here." : "";
+  return `They are the expert's: no demonstration of yours is kept here.${apart}`;
 };
 
 const ALWAYS_STRAIGHT = "Your robot always goes straight on. Drive more maps, turn earlier, or choose a smaller λ.";
@@ -38,7 +38,7 @@ function render({ model, el }) {
   const world = (map) => (worlds ??= randomWorlds(trial.maps, inMaps()))[map];
 
   // What is learned from
-  const mine = () => keptDrives().filter(({ outcome }) => outcome === "arrived");
+  const mine = () => keptDemonstrations().filter(({ outcome }) => outcome === "arrived");
   const total = () => (settings.source === 1 ? 0 : mine().length) + (settings.source === 0 ? 0 : expert.actions.length);
   const chosen = () => {
     const own = settings.source === 1 ? [] : mine().slice(0, settings.count);
@@ -50,7 +50,7 @@ function render({ model, el }) {
   const place = h("div", {});
   /** What the robot will learn from, how, and what then. */
   const tell = () => {
-    const [own, kept] = [mine(), keptDrives()];
+    const [own, kept] = [mine(), keptDemonstrations()];
     const { count, hidden, regularisation, iterations, seed, obstacles } = settings;
     const begun = begin.value();
     const learner = begun ? `The network of ${begun.name}` : `A network with ${hidden} hidden ${hidden === 1 ? "unit" : "units"}`;
@@ -58,15 +58,15 @@ function render({ model, el }) {
       + `Then the robot is tested in ${trial.maps} new maps with ${obstacles} obstacles.`;
     for (const field of [controls[0].element.querySelector("select"), seeds.element.querySelector("input")]) field.disabled = begun !== null;
     if (own.length === 0 && settings.source !== 1) {
-      about.replaceChildren("None of your drives has arrived yet. Drive a few maps in the ", h("a", { href: playground }, "playground"), ", or learn from the expert's demonstrations.");
+      about.replaceChildren("None of your demonstrations has arrived yet. Drive a few maps in the ", h("a", { href: playground }, "playground"), ", or learn from the expert's demonstrations.");
       return;
     }
     const steps = chosen().flatMap(effective).length;
     const lost = settings.source === 1 ? 0 : kept.length - own.length;
-    const missing = settings.source === 0 ? FEW_DRIVES - own.length : 0;
+    const missing = settings.source === 0 ? FEW_DEMONSTRATIONS - own.length : 0;
     about.textContent = `${count} ${count === 1 ? "demonstration" : "demonstrations"} with ${steps} steps to learn from: steps with something in range. `
       + (missing > 0 ? `Three are enough for a first robot: bring it to its target in ${WORDS[missing]} more ${missing === 1 ? "map" : "maps"}. ` : "")
-      + (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out.` : "")
+      + (lost ? `${lost} of your demonstrations did not arrive and ${lost === 1 ? "is" : "are"} left out.` : "")
       + (settings.source === 1 && own.length === 0 ? withoutOwn(kept.length) : "");
   };
   const refresh = () => {
@@ -126,13 +126,13 @@ function render({ model, el }) {
   const described = (begun, steps) => {
     const { source: from, count, hidden, regularisation, iterations, seed } = settings;
     const number = Math.max(finished + 1, nextNumber("robot", keptRobots().map(({ name }) => name)));
-    const what = [`${count} of my drives`, `${count} of the expert's demonstrations`, `${count} demonstrations of both`][from];
+    const what = [`${count} of my demonstrations`, `${count} of the expert's demonstrations`, `${count} demonstrations of both`][from];
     const begins = begun ? `on from ${shortName(begun.name)}` : `${hidden} hidden`;
     return {
       number, name: `robot ${number}: ${what}, ${begins}, λ ${regularisation}`,
       about: `Learned by imitation from ${what}, with ${steps} steps to learn from: λ ${regularisation}, at most ${iterations} iterations, `
         + (begun ? `beginning with the weights of ${begun.name}.` : `${hidden} hidden units, initial weights from seed ${seed}.`),
-      made: { source: SOURCES[from], drives: count, steps, regularisation, iterations, ...(begun ? { begun: begun.name } : { hidden, seed }) },
+      made: { source: SOURCES[from], demonstrations: count, steps, regularisation, iterations, ...(begun ? { begun: begun.name } : { hidden, seed }) },
     };
   };
   let brought = null; // a robot from a file or from Python, to be tried
@@ -151,8 +151,8 @@ function render({ model, el }) {
       const [learned, begun] = [chosen(), begin.value()];
       const encoder = begun?.encoder ?? ENCODER;
       const examples = examplesFrom(learned, encoder);
-      if (examples.m === 0) return learned.length ? NO_STEP : NO_DRIVE;
-      return task({ ...described(begun, examples.m), encoder, examples, start: begun?.network ?? null, advise: settings.source === 0 ? () => adviceOn(learned, keptDrives()) : () => "" });
+      if (examples.m === 0) return learned.length ? NO_STEP : NO_DEMONSTRATION;
+      return task({ ...described(begun, examples.m), encoder, examples, start: begun?.network ?? null, advise: settings.source === 0 ? () => adviceOn(learned, keptDemonstrations()) : () => "" });
     },
     live,
     done: (network) => {
@@ -186,11 +186,11 @@ function render({ model, el }) {
     ],
     request: () => {
       const learnedFrom = chosen();
-      if (learnedFrom.flatMap(effective).length === 0) return learnedFrom.length ? NO_STEP : NO_DRIVE;
+      if (learnedFrom.flatMap(effective).length === 0) return learnedFrom.length ? NO_STEP : NO_DEMONSTRATION;
       if (begin.value()) return PYTHON_BEGINS_ANEW;
       python = described(null, learnedFrom.flatMap(effective).length);
       const { hidden, regularisation, iterations, seed, obstacles } = settings;
-      return { robots: several.value(), drives: base64Of(demonstrationsFile(learnedFrom)), settings: { hidden, regularisation, iterations, seed, obstacles } };
+      return { robots: several.value(), demonstrations: base64Of(demonstrationsFile(learnedFrom)), settings: { hidden, regularisation, iterations, seed, obstacles } };
     },
     done: ({ sentence, policy }) => {
       best = { ...policy, ...python, number: finished, name: `trained in Python: ${python.name.split(": ")[1]}`, about: `The best of several robots of Python. ${python.about}` };
@@ -231,7 +231,7 @@ function render({ model, el }) {
   refresh();
   showTable();
   asWidget(el, "Imitation lab", "imitation", "imitation-lab");
-  const kept = drivesList();
+  const kept = demonstrationsList();
   el.replaceChildren(
     h("div", { class: "row" }, source.element, place), about,
     h("details", { open: (globalThis.innerWidth ?? Infinity) >= ROOM }, h("summary", {}, "How it learns"), h("div", { class: "row" }, ...controls.map(({ element }) => element), seeds.element), begin.element, plan),
@@ -240,7 +240,7 @@ function render({ model, el }) {
     h("div", { class: "row tools" }, download, h("label", { class: "file" }, h("span", {}, "try weights from a file (safetensors)"), upload), note),
     kept.element, kept.said, kernel.element);
   let had = mine().length > 0;
-  const unwatch = watchDrives(() => {
+  const unwatch = watchDemonstrations(() => {
     const has = mine().length > 0;
     if (settings.source === 1 && has && !had && robots.length === 0) source.move((settings.source = 0));
     had = has;

@@ -28,10 +28,14 @@ class ImitationLab(KernelTraining):
         "simulator", "maps", "episode", "files",
         "learning/random", "learning/worlds", "learning/network", "learning/lbfgs",
         "learning/trials", "learning/worker", "learning/training_panel",
-        "learning/kernel_panel", "drives", "kept_robots", "imitation", "imitation_lab",
+        "learning/kernel_panel", "kept_demonstrations", "kept_robots", "imitation", "imitation_lab",
     )  # fmt: skip
     _css = style_sheet(
-        "maps", "drives", "learning/training_panel", "kept_robots", "imitation"
+        "maps",
+        "kept_demonstrations",
+        "learning/training_panel",
+        "kept_robots",
+        "imitation",
     )
 
     def train(self, request: dict[str, Any], report: Report) -> dict[str, Any]:
@@ -41,7 +45,7 @@ class ImitationLab(KernelTraining):
             TRIED, settings["obstacles"], seed=self.data["trial"]["seed"]
         )
         self.trainings, ended = train_imitators(
-            page_demonstrations(request["drives"]),
+            page_demonstrations(request["demonstrations"]),
             settings,
             worlds,
             report,

@@ -86,10 +86,10 @@ export function followedEpisode(world, path) {
 function render({ model, el }) {
   const { training, seed, obstacles } = model.get("data");
   let [number, world] = [0, null];
-  let [points, selected, drive, timer] = [[], -1, null, null];
+  let [points, selected, followed, timer] = [[], -1, null, null];
   let smooth = { path: [], knots: [] };
   let clearances = [];
-  const kept = drivesList();
+  const kept = demonstrationsList();
 
   const board = mapCanvas({ tabindex: 0, role: "application", "aria-roledescription": "map" });
   const told = h("p", { class: "status told", role: "status" });
@@ -106,11 +106,11 @@ function render({ model, el }) {
       if (clearances[k] < ROBOT.collision) board.line(smooth.path.slice(k - 1, k + 1), PALETTE.VERMILION, 6);
     }
     points.forEach((point, k) => board.dots(point, 0, 1, { colour: PALETTE.ORANGE, radius: k === selected ? 8 : 5 }));
-    if (!drive) return;
-    const { episode } = drive;
+    if (!followed) return;
+    const { episode } = followed;
     board.line(episode.path.map(({ x, y }) => [x, y]), PALETTE.BLUE);
     board.dots(effective(episode).flatMap(({ pose }) => [pose.x, pose.y]), 0, effective(episode).length, { colour: PALETTE.BLUE, radius: 3 });
-    if (drive.running()) board.sectors(episode.pose, episode.sensing.ranges);
+    if (followed.running()) board.sectors(episode.pose, episode.sensing.ranges);
     board.robot(episode.pose);
   };
   const say = (...words) => {
@@ -126,7 +126,7 @@ function render({ model, el }) {
   /** Everything, after the points have changed. */
   const refresh = (word = "") => {
     stop();
-    drive = null;
+    followed = null;
     smooth = smoothPath([world.start, ...points, world.target]);
     clearances = pathClearance(world, smooth.path);
     const options = points.map((point, k) => h("option", { selected: k === selected }, `${k + 1}: ${shown(point)}`));
@@ -216,31 +216,31 @@ function render({ model, el }) {
     timer = null;
   };
   const ended = () => {
-    const { episode } = drive;
+    const { episode } = followed;
     const { step, outcome, steps, base } = episode;
     if (outcome !== "arrived") {
       say(outcome === "collided" ? `The robot collided after ${step} s: ` : `The robot did not arrive within ${step} s: `,
         "where nothing is in range its reflex leaves the path. This demonstration is not kept. Move a key point, and try again.");
       return;
     }
-    const kept = keepDrives([{ world: base, speed: SPEED, steps, outcome, map: number }]);
+    const kept = keepDemonstrations([{ world: base, speed: SPEED, steps, outcome, map: number }]);
     say(`The robot arrived after ${step} s, with ${effective(episode).length} steps to learn from. `, ...keptWords(kept, { what: "demonstration", training, next: "demonstrate in another map" }));
   };
   const tick = () => {
-    do drive.go();
-    while (still() && drive.running());
+    do followed.go();
+    while (still() && followed.running());
     paint();
-    if (drive.running()) timer = setTimeout(tick, 1000 / PACE);
+    if (followed.running()) timer = setTimeout(tick, 1000 / PACE);
     else ended();
   };
   const follow = h("button", { type: "button", class: "main", click: () => {
     stop();
-    drive = followedEpisode(world, smooth.path);
+    followed = followedEpisode(world, smooth.path);
     say("The robot follows the path where something is in range.");
     timer = setTimeout(tick);
   } }, "Let the robot follow the path");
   const another = () => {
-    number = Math.max(nextMap(keptDrives()), number + 1);
+    number = Math.max(nextMap(keptDemonstrations()), number + 1);
     [world, points, selected] = [ownMap(number, obstacles), [], -1];
     refresh(`Map ${number}.`);
   };
@@ -270,7 +270,7 @@ const NO_DEMONSTRATION = "There is nothing to learn from: let the robot follow a
 /** Robots that Python trains on an expert's demonstrations, to see what makes a good expert. */
 function expertsPanel(model) {
   const settings = { demonstrations: 25, margin: 3, caution: 2, slips: 0, hidden: 8, regularisation: 1, iterations: 300, seed: 0 };
-  const own = () => keptDrives().filter(({ outcome }) => outcome === "arrived");
+  const own = () => keptDemonstrations().filter(({ outcome }) => outcome === "arrived");
   let expert = 0;
   const robots = numberOfRobots([1, 4, 8]);
   /** A slider over the multiples of a step. */
@@ -292,7 +292,7 @@ function expertsPanel(model) {
     ],
     request: () => {
       if (expert === 1 && own().flatMap(effective).length === 0) return NO_DEMONSTRATION;
-      return { robots: robots.value(), settings, drives: expert === 1 ? base64Of(demonstrationsFile(own())) : null };
+      return { robots: robots.value(), settings, demonstrations: expert === 1 ? base64Of(demonstrationsFile(own())) : null };
     },
     done: ({ sentence }) => sentence,
   });

@@ -14,7 +14,7 @@ from .shared import front_end, style_sheet
 from .simulator import page_demonstrations
 
 FIRST_MAP = 500_000
-"""Map n of the reader is the world of seed ``FIRST_MAP + n``, as in ``drives.js``."""
+"""Map n of the reader is the world of seed ``FIRST_MAP + n``, as in ``demonstrations.js``."""
 EXPERT_SEED, TEST_SEED = 7, 2024
 """Of the maps in which the computer demonstrates, and of those in which robots are tried."""
 
@@ -29,17 +29,19 @@ class KeyPointsLab(KernelTraining):
     _esm = front_end(
         "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
         "learning/worker", "learning/training_panel", "learning/kernel_panel",
-        "drives", "key_points_lab",
+        "kept_demonstrations", "key_points_lab",
     )  # fmt: skip
-    _css = style_sheet("maps", "drives", "learning/training_panel", "key_points_lab")
+    _css = style_sheet(
+        "maps", "kept_demonstrations", "learning/training_panel", "key_points_lab"
+    )
 
     def train(self, request: dict[str, Any], report: Report) -> dict[str, Any]:
         """Let an expert demonstrate, train robots side by side on what it shows, and try them in new maps."""
         settings = request["settings"]
         robots = check_integer("robots", request["robots"], at_least=1)
         obstacles = self.data["obstacles"]
-        if request["drives"] is not None:
-            demonstrations, shown = page_demonstrations(request["drives"]), 0
+        if request["demonstrations"] is not None:
+            demonstrations, shown = page_demonstrations(request["demonstrations"]), 0
         else:
             shown = check_integer(
                 "demonstrations", settings["demonstrations"], at_least=1
@@ -69,7 +71,7 @@ class KeyPointsLab(KernelTraining):
 def key_points_lab(
     *,
     obstacles: int = 10,
-    training: str = "policy-learning.html#train-a-robot-on-your-own-drives",
+    training: str = "policy-learning.html#train-a-robot-on-your-own-demonstrations",
 ) -> KeyPointsLab:
     """Make a lab in which the reader is the human expert of :mod:`robonav.lfd.human_expert`.
 

@@ -11,7 +11,7 @@ export function* boardJob({ policy, settings, seeds, worlds }) {
   for (const [k, conditions] of settings.entries()) {
     for (const seed of seeds) {
       for (const world of randomWorlds(worlds, { seed, ...conditions })) {
-        if (driveWith(policy, world, conditions).outcome === "arrived") arrived[k] += 1;
+        if (rollout(policy, world, conditions).outcome === "arrived") arrived[k] += 1;
         done += 1;
         if (done % 10 === 0) yield { done, total, live: { at: done, setting: k, arrived: [...arrived] } };
       }

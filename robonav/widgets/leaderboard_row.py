@@ -30,7 +30,7 @@ class LeaderboardRow(anywidget.AnyWidget):
 def leaderboard_row(
     rates: Mapping[str, Sequence[float]],
     *,
-    playground: str = "policy-learning.html#train-a-robot-on-your-own-drives",
+    playground: str = "policy-learning.html#train-a-robot-on-your-own-demonstrations",
     worlds: int = WORLDS,
 ) -> LeaderboardRow:
     """Make the widget that tries the reader's robot.

@@ -221,7 +221,7 @@ function contestants(network, encoder, settings, { book, temperatures }) {
  * @param {{settings: LearningSettings, start?: {network: Network, encoder: Encoder} | null,
  *   trial: {seed: number, maps: number, book: object, temperatures: Record<string, number>}}} job `start`: what the training begins with
  */
-export function* learnAndDrive({ settings, start = null, trial }) {
+export function* learnAndTest({ settings, start = null, trial }) {
   const total = settings.episodes + trial.maps;
   let [network, arrived, shares] = [null, 0, []]; // of a block: the arrivals, and the shares of targets out of [0, 1]
   for (const ended of neuralQLearning(settings, { start })) {
@@ -243,7 +243,7 @@ export function* learnAndDrive({ settings, start = null, trial }) {
   const { speed, maxSteps, direction, obstacles, moving } = settings;
   for (let i = 0; i < trial.maps; i += 1) {
     const world = drawWorld(keys[i], { obstacles, moving, ...NNQL_ENDS });
-    const found = policies.map(([, policy]) => driveWith(policy, world, { speed, maxSteps, direction }));
+    const found = policies.map(([, policy]) => rollout(policy, world, { speed, maxSteps, direction }));
     const outcomes = Object.fromEntries(policies.map(([name], k) => [name, found[k].outcome]));
     yield { done: settings.episodes + i + 1, total, live: { test: { world, path: found[0].poses.map(({ x, y }) => [x, y]), outcome: found[0].outcome, outcomes } } };
   }
@@ -495,7 +495,7 @@ function render({ model, el }) {
       small.clear();
       results.show([], maps);
       save.disabled = true;
-      return { job: learnAndDrive, argument: { settings: run.settings, start: run.start, trial: { ...trial, maps } } };
+      return { job: learnAndTest, argument: { settings: run.settings, start: run.start, trial: { ...trial, maps } } };
     },
     live: (news) => {
       for (const { episode, test } of news) {

@@ -5,9 +5,9 @@ const HEAT_SHADES = 5; // on either side of 0
 const PYTHON_METHODS = { nirl: "NIRL", apprenticeship: "apprenticeship learning", "relative-entropy": "relative entropy", scirl: "SCIRL" };
 const METHOD_NAMES = Object.values(PYTHON_METHODS);
 const LITTLE_LEAD = 5; // per cent of the maps: by so little a robot that has learned something is not better than straight on
-const ENOUGH = 60; // iterations after which the drives are to blame for a poor robot
+const ENOUGH = 60; // iterations after which the demonstrations are to blame for a poor robot
 const MORE_ITERATIONS = "Few iterations were made: let it learn for more.";
-const NO_DECISION = "Your drives hold no decision to learn from: drive some maps with obstacles in the playground first.";
+const NO_DECISION = "Your demonstrations hold no decision to learn from: drive some maps with obstacles in the playground first.";
 const ACTION_NAMES = ROBOT.actions.slice(0, 5);
 
 /** The job: a reward and a policy from decisions, or with `reward` a policy alone. */
@@ -215,7 +215,7 @@ function render({ model, el }) {
       about: `${what} Of ${iterations} iterations number ${iteration} is kept, which predicts ${rewardFrom ? name : "them"} best. `
         + `Trained among ${obstacles} standing and ${moving} moving obstacles at ${speed} m/s, with inverse temperature ${inverseTemperature} and seed ${seed}.`,
       made: {
-        demonstrations: name, drives: sets[chosen]?.demonstrations ?? mine().length, decisions: count, iterations, kept: iteration, balanced, obstacles, moving, speed,
+        source: name, demonstrations: sets[chosen]?.demonstrations ?? mine().length, decisions: count, iterations, kept: iteration, balanced, obstacles, moving, speed,
         hidden: network.sizes[1], inverseTemperature, discount, seed, reward: rowsOf(theta), ...(rewardFrom ? { rewardFrom } : {}),
       },
     };
@@ -267,7 +267,7 @@ function render({ model, el }) {
     where: trained, argument: () => ({ settings, seed: settings.seed, reward: null }),
     accept: (result) => learned({ ...result, method: "nirl" }, `NIRL, ${changesOf(settings)}seed ${settings.seed}`, "NIRL"),
     ends: () => `The policy of iteration ${found.iteration} has the highest balanced accuracy and is kept. ${kept}`.trim(), beside: seen,
-    advise: () => (settings.iterations < ENOUGH ? MORE_ITERATIONS : sets[chosen] ? "" : adviceOn(mine(), keptDrives())),
+    advise: () => (settings.iterations < ENOUGH ? MORE_ITERATIONS : sets[chosen] ? "" : adviceOn(mine(), keptDemonstrations())),
   });
   let [newRobot, next, keptToo] = [null, null, ""]; // the robot of the other worlds, what it will be, and what the browser says where it does not keep it
   const again = training({
@@ -308,11 +308,11 @@ function render({ model, el }) {
     const { shape: [rows, width], values } = unpack(inputs);
     return { inputs: Array.from({ length: rows }, (_, t) => values.slice(t * width, (t + 1) * width)), actions: [...unpack(actions).values] };
   });
-  /** The reader's drives that arrived: who collides is no expert. */
-  const mine = () => keptDrives().filter(({ outcome }) => outcome === "arrived");
+  /** The reader's demonstrations that arrived: who collides is no expert. */
+  const mine = () => keptDemonstrations().filter(({ outcome }) => outcome === "arrived");
   const own = () => decisionsOf(mine().flatMap(effective), settings);
   const decisions = (index) => ready[index] ?? own();
-  const names = () => [...sets.map(({ name }) => name), `my own drives (${mine().length})`];
+  const names = () => [...sets.map(({ name }) => name), `my own demonstrations (${mine().length})`];
   const from = choice({ label: "demonstrations", options: names(), change: (index) => {
     chosen = index;
     tell();
@@ -322,11 +322,11 @@ function render({ model, el }) {
   const tell = () => {
     const all = sets[chosen]?.demonstrations ?? mine().length;
     const count = decisions(chosen).actions.length;
-    const lost = sets[chosen] ? 0 : keptDrives().length - mine().length;
-    about.textContent = (lost ? `${lost} of your drives did not arrive and ${lost === 1 ? "is" : "are"} left out. ` : "") + (count === 0 ? NO_DECISION
+    const lost = sets[chosen] ? 0 : keptDemonstrations().length - mine().length;
+    about.textContent = (lost ? `${lost} of your demonstrations did not arrive and ${lost === 1 ? "is" : "are"} left out. ` : "") + (count === 0 ? NO_DECISION
       : `${all} ${all === 1 ? "demonstration" : "demonstrations"} with ${count} ${count === 1 ? "decision" : "decisions"} to learn from: steps with something in range.`);
   };
-  const forget = watchDrives(() => {
+  const forget = watchDemonstrations(() => {
     from.element.querySelector("option:last-child").textContent = names().at(-1);
     if (!found && mine().length === 1) from.move((chosen = sets.length));
     if (mine().length === 0) from.move((chosen = Math.min(chosen, sets.length - 1)));
@@ -342,12 +342,12 @@ function render({ model, el }) {
     ],
     request: () => {
       if (complain.textContent) return complain.textContent;
-      const drives = mine();
+      const demonstrations = mine();
       if (!ready[chosen] && own().actions.length === 0) return NO_DECISION;
       python.asked = python.method;
       return {
         method: Object.keys(PYTHON_METHODS)[python.asked], robots: robots.value(), set: chosen,
-        drives: ready[chosen] ? null : base64Of(demonstrationsFile(drives)),
+        demonstrations: ready[chosen] ? null : base64Of(demonstrationsFile(demonstrations)),
         settings: { iterations: settings.iterations, obstacles: settings.obstacles, inverseTemperature: settings.inverseTemperature, seed: settings.seed, hidden: python.hidden },
       };
     },

@@ -46,7 +46,7 @@ FILES = (
     "learning/network",
     "learning/nirl",
     "learning/trials",
-    "drives",
+    "kept_demonstrations",
     "kept_robots",
     "learning/worker",
     "learning/training_panel",
@@ -101,7 +101,9 @@ class RewardLearning(KernelTraining):
     """
 
     _esm = front_end(*FILES)
-    _css = style_sheet("maps", "drives", "robot_playground", "learning/training_panel")
+    _css = style_sheet(
+        "maps", "kept_demonstrations", "robot_playground", "learning/training_panel"
+    )
 
     def __init__(
         self, data: dict[str, Any], demonstrations: Sequence[Demonstrations]
@@ -118,8 +120,8 @@ class RewardLearning(KernelTraining):
         seed = check_integer("seed", settings["seed"], at_least=0)
         demonstrations = (
             self._demonstrations[request["set"]]
-            if request["drives"] is None
-            else page_demonstrations(request["drives"])
+            if request["demonstrations"] is None
+            else page_demonstrations(request["demonstrations"])
         )
         obstacles = check_integer("obstacles", settings["obstacles"], at_least=0)
         task = RobotTask(obstacles=obstacles)
@@ -222,12 +224,12 @@ def reward_learning(
     ['straight on']
     """
     sets = []
-    for name, drives in demonstrations.items():
-        decisions = expert_decisions(drives)
+    for name, shown in demonstrations.items():
+        decisions = expert_decisions(shown)
         sets.append(
             {
                 "name": name,
-                "demonstrations": len(drives.worlds),
+                "demonstrations": len(shown.worlds),
                 "inputs": packed(decisions.inputs),
                 "actions": packed(decisions.actions, np.uint8),
             }

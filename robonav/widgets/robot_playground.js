@@ -204,10 +204,10 @@ function render({ model, el }) {
     inspect.show();
   };
   const record = () => ({ world: episode.base, speed: episode.speed, steps: episode.steps, outcome: episode.outcome, map: mapNumber });
-  const save = h("button", { type: "button", click: () => saveFile("my-drive.npz", demonstrationsFile([record()])) }, "Download this drive");
-  const [mineKept, myRobots] = [drivesList(), robotsList()];
+  const save = h("button", { type: "button", click: () => saveFile("my-demonstration.npz", demonstrationsFile([record()])) }, "Download this demonstration");
+  const [mineKept, myRobots] = [demonstrationsList(), robotsList()];
   const keep = () => {
-    mineKept.say(...keptWords(keepDrives([record()]), { training, next: h("button", { type: "button", click: newMap }, "Drive the next map") }));
+    mineKept.say(...keptWords(keepDemonstrations([record()]), { training, next: h("button", { type: "button", click: newMap }, "Drive the next map") }));
   };
   const note = h("span", { role: "status" });
   const upload = h("input", { type: "file", accept: ".safetensors", "aria-label": "Weights to drive with", change: async () => {
@@ -254,7 +254,7 @@ function render({ model, el }) {
   };
   const where = choice({ label: "world", options: [...worlds.map(({ name }) => name), "a map of yours"], change: (index) => (index < worlds.length ? go(worlds[index].world) : newMap()) });
   const newMap = () => {
-    const number = nextMap(keptDrives());
+    const number = nextMap(keptDemonstrations());
     where.move(worlds.length);
     go(ownMap(number), number);
     mineKept.say(`Map ${number}. Bring the robot to the circle without touching anything: press ${whatSteers()}. Left and right are the robot's. While nothing is near, it goes on by itself; then it waits for you.`);

@@ -22,9 +22,11 @@ class RobotPlayground(anywidget.AnyWidget):
 
     _esm = front_end(
         "simulator", "maps", "episode", "steering", "files", "learning/random", "learning/worlds",
-        "drives", "kept_robots", "robot_playground",
+        "kept_demonstrations", "kept_robots", "robot_playground",
     )  # fmt: skip
-    _css = style_sheet("maps", "steering", "drives", "kept_robots", "robot_playground")
+    _css = style_sheet(
+        "maps", "steering", "kept_demonstrations", "kept_robots", "robot_playground"
+    )
     data = traitlets.Dict().tag(sync=True)
 
 
@@ -33,7 +35,7 @@ def robot_playground(
     policies: Mapping[str, NetworkPolicy] | None = None,
     *,
     speeds: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0),
-    training: str = "policy-learning.html#train-a-robot-on-your-own-drives",
+    training: str = "policy-learning.html#train-a-robot-on-your-own-demonstrations",
 ) -> RobotPlayground:
     """Make a playground with some worlds and networks. The two baselines and the reader can always steer.
 
@@ -46,7 +48,7 @@ def robot_playground(
     speeds : sequence of float
         Speeds to choose from, in m/s; 2 must be among them.
     training : str
-        Address of the page on which a robot learns from the reader's drives.
+        Address of the page on which a robot learns from the reader's demonstrations.
 
     Returns
     -------

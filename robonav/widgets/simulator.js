@@ -1,4 +1,4 @@
-// The simulator in the page: robonav/robot/_fast in JavaScript, one robot at a time, held to Python by replayed drives.
+// The simulator in the page: robonav/robot/_fast in JavaScript, one robot at a time, held to Python by replayed episodes.
 
 /**
  * @typedef {{circle: boolean, x: number, y: number, a: number, b: number, turned: number, speed: number, heading: number}} Obstacle

@@ -61,6 +61,6 @@ def page_policy(policy: NetworkPolicy) -> dict[str, Any]:
 def page_demonstrations(text: str) -> Demonstrations:
     """Read demonstrations that the page sent: the file that it would download, as base 64."""
     with TemporaryDirectory() as folder:
-        path = Path(folder) / "drives.npz"
+        path = Path(folder) / "demonstrations.npz"
         path.write_bytes(base64.b64decode(text))
         return load_demonstrations(path)

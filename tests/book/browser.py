@@ -184,7 +184,7 @@ def touch(control: Locator) -> None:
 
 
 def empty_storage(page: Page) -> None:
-    """Delete what the browser keeps: other tests in the same browser keep drives and robots."""
+    """Delete what the browser keeps: other tests in the same browser keep demonstrations and robots."""
     page.evaluate("localStorage.clear()")
     page.evaluate("dispatchEvent(new StorageEvent('storage', { key: null }))")
 

@@ -64,7 +64,7 @@ def own_map(number: int) -> Worlds:
     return random_worlds(1, 10, seed=500_000 + number)
 
 
-def good_drive(number: int) -> Demonstrations:
+def good_demonstration(number: int) -> Demonstrations:
     """How a reader drives through a map who plans well."""
     return demonstrate(own_map(number))
 
@@ -83,14 +83,14 @@ class Wanderer:
         return self._expert(simulator, robots)
 
 
-def clumsy_drive(number: int) -> Demonstrations:
+def clumsy_demonstration(number: int) -> Demonstrations:
     """How a reader drives through a map who turns round and round."""
     return record(Wanderer(), own_map(number))
 
 
-def keys_of(drive: Demonstrations) -> list[str]:
-    """The keys that a drive takes where the robot waits."""
-    return [KEYS[action] for action in drive.actions if action < 5]
+def keys_of(demonstration: Demonstrations) -> list[str]:
+    """The keys that a demonstration takes where the robot waits."""
+    return [KEYS[action] for action in demonstration.actions if action < 5]
 
 
 def fast(lab: Locator) -> None:

@@ -91,8 +91,8 @@ def test_corrections_by_hand_raise_the_rate(lab):
     )
 
 
-def test_without_drives_one_sentence_and_cancel(lab):
-    lab.get_by_label("the robot first learns from").select_option("my drives")
+def test_without_demonstrations_one_sentence_and_cancel(lab):
+    lab.get_by_label("the robot first learns from").select_option("my demonstrations")
     lab.get_by_role("button", name="Train").click()
     expect(lab.locator(".training > .status")).to_contain_text(
         "There is nothing to learn from"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from browser import PHONE, chromium, visiting
-from driving import KEYS, WAITS, good_drive, keys_of
+from driving import KEYS, WAITS, good_demonstration, keys_of
 from playwright.sync_api import Locator, Page, expect
 
 NAMES = ("ahead", "left 30°", "left 60°", "right 30°", "right 60°")
@@ -18,7 +18,7 @@ def drive_by_touch(lab: Locator, number: int) -> None:
     """Drive the reader's next map with the buttons below it, as a reader would who sees the way."""
     lab.get_by_role("button", name="Drive a new map yourself").tap()
     expect(lab.locator(".kept")).to_contain_text(f"Map {number}.")
-    turns = [NAMES[KEYS.index(key)] for key in keys_of(good_drive(number))]
+    turns = [NAMES[KEYS.index(key)] for key in keys_of(good_demonstration(number))]
     if "waits for you" not in lab.locator(".status").first.inner_text():
         lab.get_by_role("button", name="ahead").tap()
     while True:
@@ -52,9 +52,11 @@ def test_three_maps_are_driven_and_a_robot_is_trained(site: Path) -> None:
         lab = go(page, link, "playground.html")
         for number in (1, 2, 3):
             drive_by_touch(lab, number)
-        link = lab.get_by_role("link", name="Train a robot on your drives")
+        link = lab.get_by_role("link", name="Train a robot on your demonstrations")
         lab = go(page, link, "policy-learning.html")
-        expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
+        expect(lab.get_by_label("learn from", exact=True)).to_have_value(
+            "my demonstrations"
+        )
         train = lab.get_by_role("button", name="Train", exact=True)
         said = lab.locator(".training > .status").first
         train.tap()
@@ -70,7 +72,7 @@ def test_three_maps_are_driven_and_a_robot_is_trained(site: Path) -> None:
             page, lab.get_by_role("link", name="Let your robot drive"), "playground"
         )
         lab.get_by_label("who drives", exact=True).select_option(
-            label="robot 1: 3 of my drives, 8 hidden, λ 0.1"
+            label="robot 1: 3 of my demonstrations, 8 hidden, λ 0.1"
         )
         lab.get_by_role("button", name="Drive", exact=True).tap()
         expect(lab.locator(".status").first).to_contain_text("s, target in sector")

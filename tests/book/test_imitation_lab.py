@@ -1,4 +1,4 @@
-"""Train on my drives, from disk, with the network cut: driven by keyboard, learned, tested, taken to Python."""
+"""Train on my demonstrations, from disk, with the network cut: driven by keyboard, learned, tested, taken to Python."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import pytest
 from accessibility import AXE, RUN, ours
 from browser import DESKTOP, PHONE, Visit
 from driving import (
-    clumsy_drive,
+    clumsy_demonstration,
     drive_map,
     fast,
-    good_drive,
+    good_demonstration,
     keys_of,
     own_map,
     playground,
@@ -22,7 +22,7 @@ from driving import (
 from mounting import mounted
 from playwright.sync_api import Locator, expect
 from test_controls import choose_everything, slide_everything
-from test_drives import BLOCKED, FULL
+from test_kept_demonstrations import BLOCKED, FULL
 
 from robonav.benchmark.policies import method
 from robonav.lfd import (
@@ -105,9 +105,11 @@ def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
     lab = mounted(view, site.as_uri(), playground())
     fast(lab)
     for number in range(1, 6):
-        assert "Arrived" in drive_map(lab, keys_of(good_drive(number)))
+        assert "Arrived" in drive_map(lab, keys_of(good_demonstration(number)))
     lab = opened(view, site, widget)
-    expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
+    expect(lab.get_by_label("learn from", exact=True)).to_have_value(
+        "my demonstrations"
+    )
     expect(lab.locator(".about").first).to_contain_text("5 demonstrations with ")
     train(lab)
     found = rates(lab)
@@ -123,38 +125,40 @@ def test_five_maps_driven_by_hand_make_a_robot_that_beats_straight_on(
         lab.get_by_role("button", name="Download the latest").click()
     download.value.save_as(tmp_path / "mine.safetensors")
     mine = load_weights(tmp_path / "mine.safetensors")
-    assert mine.made["drives"] == 5
+    assert mine.made["demonstrations"] == 5
     policy = NetworkPolicy(mine.network, mine.encoder)
     assert found["robot 1"] == pytest.approx(
         100 * navigate(policy, UNSEEN).success.mean()
     )
-    drives = concatenate([good_drive(number) for number in range(1, 6)])
-    ours = navigate(learn_policy(drives, regularisation=0.1), UNSEEN).success.mean()
+    demonstrations = concatenate([good_demonstration(number) for number in range(1, 6)])
+    ours = navigate(
+        learn_policy(demonstrations, regularisation=0.1), UNSEEN
+    ).success.mean()
     assert found["robot 1"] == pytest.approx(100 * ours, abs=8)
     setting(lab, "regularisation λ").select_option("1")
-    train(lab)  # so much of it that few drives teach only the commonest action
+    train(lab)  # so much of it that few demonstrations teach only the commonest action
     assert rates(lab)["robot 2"] == found["always straight on"]
     expect(said(lab)).to_contain_text(
         "%. Your robot always goes straight on. Drive more maps, turn earlier,"
     )
 
 
-def test_clumsy_drives_teach_a_poor_robot_and_get_advice(view, site, widget):
+def test_clumsy_demonstrations_teach_a_poor_robot_and_get_advice(view, site, widget):
     """Driven by keyboard: two maps into an obstacle, then three in which the robot turns round and round."""
     lab = mounted(view, site.as_uri(), playground())
     fast(lab)
-    link = lab.get_by_role("link", name="Train a robot on your drives")
+    link = lab.get_by_role("link", name="Train a robot on your demonstrations")
     number, ends = 0, {"Arrived": 0, "Collided": 0}
     while ends["Arrived"] < 3:
         number += 1
         hits = ends["Collided"] < 2 and navigate(straight, own_map(number)).collision[0]
-        keys = ["ArrowUp"] * 200 if hits else keys_of(clumsy_drive(number))
+        keys = ["ArrowUp"] * 200 if hits else keys_of(clumsy_demonstration(number))
         ended = drive_map(lab, keys).split()[0]
         ends[ended] += 1
         heard = lab.locator(".status.kept")
         if ends["Collided"]:
             expect(heard).to_contain_text(
-                "A robot learns only from drives that arrive:"
+                "A robot learns only from demonstrations that arrive:"
             )
         expect(link).to_have_count(1 if ends["Arrived"] >= 3 else 0)
         if ends["Arrived"] < 3:
@@ -166,18 +170,20 @@ def test_clumsy_drives_teach_a_poor_robot_and_get_advice(view, site, widget):
     expect(said(lab)).to_contain_text("and the robot learned to wander: drive again")
 
 
-def test_without_drives_the_page_says_so_and_offers_the_experts(view, site, widget):
+def test_without_demonstrations_the_page_says_so_and_offers_the_experts(
+    view, site, widget
+):
     lab = opened(view, site, widget)
     expect(lab.get_by_label("learn from", exact=True)).to_have_value(
         "the expert's demonstrations"
     )
     expect(lab.locator(".about").first).to_contain_text(
-        "no drive of yours is kept here. Some browsers, such as Firefox, keep the drives of each page on a disk apart: "
-        "press Download all where you drive, and load the file here."
+        "no demonstration of yours is kept here. Some browsers, such as Firefox, keep the demonstrations of "
+        "each page on a disk apart: press Download all where you drive, and load the file here."
     )
-    lab.get_by_label("learn from", exact=True).select_option("my drives")
+    lab.get_by_label("learn from", exact=True).select_option("my demonstrations")
     expect(lab.locator(".about").first).to_contain_text(
-        "None of your drives has arrived yet."
+        "None of your demonstrations has arrived yet."
     )
     link = lab.locator(".about").first.get_by_role("link", name="playground")
     expect(link).to_have_attribute("href", "playground.html")
@@ -191,7 +197,7 @@ def test_without_drives_the_page_says_so_and_offers_the_experts(view, site, widg
     assert rates(lab)["robot 1"] > 80
 
 
-def test_drives_that_collided_are_left_out(view, site, widget, tmp_path):
+def test_demonstrations_that_collided_are_left_out(view, site, widget, tmp_path):
     hits = navigate(straight, random_worlds(9, 10, seed=1))
     world = int(np.flatnonzero(hits.collision)[0])
 
@@ -199,14 +205,18 @@ def test_drives_that_collided_are_left_out(view, site, widget, tmp_path):
         return np.zeros(len(asked), dtype=np.int64)
 
     bad = record(ahead, random_worlds(9, 10, seed=1)[world])
-    save_demonstrations(tmp_path / "both.npz", concatenate([bad, good_drive(1)]))
+    save_demonstrations(
+        tmp_path / "both.npz", concatenate([bad, good_demonstration(1)])
+    )
     lab = opened(view, site, widget)
-    lab.locator(".my-drives summary").click()
-    lab.get_by_label("File of drives").set_input_files(tmp_path / "both.npz")
-    expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
+    lab.locator(".my-demonstrations summary").click()
+    lab.get_by_label("File of demonstrations").set_input_files(tmp_path / "both.npz")
+    expect(lab.get_by_label("learn from", exact=True)).to_have_value(
+        "my demonstrations"
+    )
     expect(lab.locator(".about").first).to_have_text(
         re.compile(
-            r"^1 demonstration with \d+ steps .* 1 of your drives did not arrive and is left out\.$"
+            r"^1 demonstration with \d+ steps .* 1 of your demonstrations did not arrive and is left out\.$"
         )
     )
 
@@ -308,8 +318,10 @@ def test_a_robot_is_trained_on_from_a_file_of_python_and_numbered_on(
     begin = setting(lab, "begin with").and_(lab.locator("select"))
     expect(begin).to_be_disabled()
     encoder = Encoder(target="signed")
-    drives = demonstrate(random_worlds(30, 10, seed=9)).select_trajectories(range(25))
-    x, y = labelled_states(drives, encoder)
+    demonstrations = demonstrate(random_worlds(30, 10, seed=9)).select_trajectories(
+        range(25)
+    )
+    x, y = labelled_states(demonstrations, encoder)
     settings = {"regularisation": 0.1, "iterations": 3}
     first = lbfgs(random_network((encoder.size, 4, 5), seed=5), x, y, **settings)
     save_weights(tmp_path / "own.safetensors", Weights(first.network, "lfd", encoder))

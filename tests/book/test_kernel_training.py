@@ -147,7 +147,9 @@ def test_a_method_learns_on_a_map_of_ones_own(view, http):
 def test_robots_imitate_and_the_best_drives_in_the_page(view, http):
     widget = imitation()
     lab = mounted(view, http, widget, kernel=True)
-    expect(lab.get_by_text("Firefox")).to_have_count(0)  # pages over http share drives
+    expect(lab.get_by_text("Firefox")).to_have_count(
+        0
+    )  # pages over http share demonstrations
     lab.get_by_label("learn from", exact=True).select_option(
         "the expert's demonstrations"
     )
@@ -182,7 +184,9 @@ def test_a_network_of_python_is_shown_in_the_plane(view, http):
 def test_an_expert_that_slips_is_learned_from(view, http):
     widget = key_points_lab()
     lab = mounted(view, http, widget, kernel=True)
-    empty_storage(view.page)  # from drives that another test has left, Python learns
+    empty_storage(
+        view.page
+    )  # from demonstrations that another test has left, Python learns
     set_slider(lab, "the computer's demonstrations", "Home")
     set_slider(lab, "slip with probability", "End")
     panel(lab).get_by_label("robots, each").select_option("1")

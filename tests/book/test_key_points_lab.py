@@ -83,7 +83,9 @@ def test_a_demonstration_by_keyboard_is_that_of_python_and_is_kept(
     expect(told).to_contain_text(
         f"arrived after {steps} s, with {effective} steps to learn from"
     )
-    expect(lab.locator(".my-drives summary")).to_have_text("My drives (1)")
+    expect(lab.locator(".my-demonstrations summary")).to_have_text(
+        "My demonstrations (1)"
+    )
     lab.get_by_role("button", name="Another map").click()
     expect(told).to_contain_text("Map 2.")
 

@@ -1,4 +1,4 @@
-"""The robot playground, used as a reader would, and its drives compared with Python's."""
+"""The robot playground, used as a reader would, and its demonstrations compared with Python's."""
 
 from __future__ import annotations
 
@@ -182,9 +182,9 @@ def test_a_finger_drags_things_and_scrolls_elsewhere(visit, http):
     expect(x).to_have_value(re.compile(r"^(2[89]|30)"))
 
 
-def test_a_drive_of_ones_own_is_a_demonstration_for_python(lab, tmp_path):
+def test_a_demonstration_of_ones_own_is_a_demonstration_for_python(lab, tmp_path):
     choose(lab, "world", "10 obstacles")
-    save = lab.get_by_role("button", name="Download this drive")
+    save = lab.get_by_role("button", name="Download this demonstration")
     expect(save).to_be_disabled()
     canvas = lab.locator("canvas")
     lab.get_by_label("the robot goes on by itself").uncheck()
@@ -266,20 +266,23 @@ def test_robots_are_listed_renamed_taken_along_and_deleted(visit, site, size, tm
     own = drivers.locator("optgroup[label='robots of yours'] option")
     policy = method("lfd")
     first, second = (kept_robot(name, policy) for name in ("first", "second"))
-    about = {"about": "Learned from five drives.", "made": {"drives": 5}}
+    about = {
+        "about": "Learned from five demonstrations.",
+        "made": {"demonstrations": 5},
+    }
     keep_robots(lab.page, first | about, second)
     robots = lab.locator(".my-robots")
     robots.get_by_text("My robots (2)").press("Enter")
     items = robots.locator("li")
     expect(items.first).to_contain_text("second")  # the latest first
-    expect(items.last).to_contain_text("Learned from five drives.")
+    expect(items.last).to_contain_text("Learned from five demonstrations.")
     with lab.page.expect_download() as download:
         robots.get_by_role("button", name="Download first").press("Enter")
     assert download.value.suggested_filename == "first.safetensors"
     download.value.save_as(tmp_path / "first.safetensors")
     weights = load_weights(tmp_path / "first.safetensors")
-    assert weights.made["drives"] == 5
-    assert weights.made["about"] == "Learned from five drives."
+    assert weights.made["demonstrations"] == 5
+    assert weights.made["about"] == "Learned from five demonstrations."
     np.testing.assert_array_equal(weights.network.weights[0], policy.network.weights[0])
     choose(lab, "who drives", "first")
     robots.get_by_role("button", name="Rename first").press("Enter")
@@ -306,7 +309,7 @@ def test_robots_are_listed_renamed_taken_along_and_deleted(visit, site, size, tm
     assert lab.page.evaluate(RUN_FROM_DISK.replace("document", "'.my-robots'")) == []
     undo.press("Enter")
     expect(own).to_have_text(["second", "second (2)"])
-    expect(items.last).to_contain_text("Learned from five drives.")
+    expect(items.last).to_contain_text("Learned from five demonstrations.")
     expect(undo).to_be_hidden()
     empty_storage(visit.page)
     assert visit.errors == visit.external == []

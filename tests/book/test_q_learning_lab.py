@@ -360,7 +360,7 @@ def test_every_control_does_something(visit):
     assert visit.errors == visit.external == []
 
 
-def test_moving_obstacles_move_when_a_drive_is_looked_at(visit):
+def test_moving_obstacles_move_when_an_episode_is_looked_at(visit):
     settings = QLearningSettings(obstacles=0, moving=6, episodes=1)
     lab = mounted_alone(visit, q_learning_lab(settings=settings))
     train(lab)

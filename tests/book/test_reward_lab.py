@@ -122,7 +122,7 @@ def test_a_touched_weight_is_in_hand(lab):
     )
 
 
-def test_the_drive_can_be_stepped_through(lab):
+def test_the_episode_can_be_stepped_through(lab):
     lab.get_by_label("To the start").click()
     expect(lab.locator(".status")).to_contain_text("Second 0: ")
     lab.get_by_label("One on").click()

@@ -22,7 +22,7 @@ from robonav.widgets.reward_learning import reward_learning
 from robonav.widgets.simulator import page_world
 
 SLOW = 240_000  # milliseconds: a training on a busy machine
-DRIVES = demonstrate(random_worlds(6, 20, seed=3))
+DEMONSTRATIONS = demonstrate(random_worlds(6, 20, seed=3))
 
 
 @pytest.fixture(params=[DESKTOP, PHONE], ids=["desktop", "phone"])
@@ -30,7 +30,7 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
     """The widget alone on a page, from disk, with no network."""
     visit.page.set_viewport_size(request.param)
     widget = reward_learning(
-        {"six": DRIVES},
+        {"six": DEMONSTRATIONS},
         random_worlds(1, 20, seed=8),
         {"the book's NIRL": method("nirl")},
         maps=100,
@@ -80,7 +80,7 @@ def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
         lab.get_by_role("button", name="Download the reward").click()
     download.value.save_as(tmp_path / "reward.npz")
     theta = np.load(tmp_path / "reward.npz")["reward_weights"]
-    expected = learn(DRIVES, "nirl", seed=0, iterations=30)
+    expected = learn(DEMONSTRATIONS, "nirl", seed=0, iterations=30)
     assert theta.shape == expected.reward_weights.shape == (5, 18)
     with lab.page.expect_download() as download:
         lab.get_by_role("button", name="Download the policy").click()
@@ -88,7 +88,7 @@ def test_reward_is_learned_tried_used_elsewhere_and_taken_away(lab, tmp_path):
     policy = load_weights(tmp_path / "policy.safetensors")
     assert policy.network.sizes == (17, 10, 5)
     made = policy.made
-    assert (made["demonstrations"], made["drives"], made["iterations"], made["seed"]) == (
+    assert (made["source"], made["demonstrations"], made["iterations"], made["seed"]) == (
         "six", 6, 30, 0,
     )  # fmt: skip
     assert made["reward"] == theta.tolist()
@@ -127,7 +127,7 @@ def test_a_reward_from_a_file_is_shown_and_a_robot_trained_for_it(lab, tmp_path)
     (tmp_path / "bad.npz").write_bytes(b"nothing")
     upload.set_input_files(tmp_path / "bad.npz")
     expect(lab.get_by_text("The file must hold a reward, an array")).to_be_visible()
-    reward = learn(DRIVES, "nirl", seed=3, iterations=3).reward_weights
+    reward = learn(DEMONSTRATIONS, "nirl", seed=3, iterations=3).reward_weights
     np.savez(tmp_path / "python.npz", reward_weights=reward)
     upload.set_input_files(tmp_path / "python.npz")
     expect(lab.get_by_text("The map shows the reward in python.npz.")).to_be_visible()
@@ -147,7 +147,9 @@ def test_a_reward_from_a_file_is_shown_and_a_robot_trained_for_it(lab, tmp_path)
     download.value.save_as(tmp_path / "new.safetensors")
     new = load_weights(tmp_path / "new.safetensors")
     task = RobotTask(obstacles=10, moving=10)
-    expected = learn_under_reward(DRIVES, reward, task=task, seed=1, iterations=2)
+    expected = learn_under_reward(
+        DEMONSTRATIONS, reward, task=task, seed=1, iterations=2
+    )
     np.testing.assert_allclose(
         new.network.weights[0], expected.network.weights[0], atol=1e-9
     )
@@ -226,31 +228,31 @@ def test_wrong_number_is_one_sentence(lab):
     expect(lab.get_by_role("alert")).to_have_text("")
 
 
-def test_without_own_drives_one_sentence_says_where_to_drive(lab):
-    lab.get_by_label("demonstrations").select_option("my own drives (0)")
+def test_without_own_demonstrations_one_sentence_says_where_to_drive(lab):
+    lab.get_by_label("demonstrations").select_option("my own demonstrations (0)")
     expect(lab.locator(".about")).to_contain_text("in the playground first")
     lab.get_by_role("button", name="Learn the reward").click()
     expect(lab.locator(".status").nth(1)).to_contain_text("in the playground first")
 
 
-KEPT = """(drives) => {
-  for (const [k, drive] of drives.entries()) localStorage.setItem(`robonav.drive.test.${k}`, JSON.stringify(drive));
+KEPT = """(demonstrations) => {
+  for (const [k, shown] of demonstrations.entries()) localStorage.setItem(`robonav.drive.test.${k}`, JSON.stringify(shown));
   window.dispatchEvent(new StorageEvent("storage", { key: null }));
 }"""
 
 
-def kept_drives():
-    """Demonstrations as the playground keeps drives."""
-    for number in range(len(DRIVES.worlds)):
-        rows = DRIVES.trajectory == number
-        sensing = DRIVES.sensing[rows]
+def kept_demonstrations():
+    """Demonstrations as the playground keeps them."""
+    for number in range(len(DEMONSTRATIONS.worlds)):
+        rows = DEMONSTRATIONS.trajectory == number
+        sensing = DEMONSTRATIONS.sensing[rows]
         yield {
-            "world": page_world(DRIVES.worlds[number]),
-            "speed": DRIVES.speed,
+            "world": page_world(DEMONSTRATIONS.worlds[number]),
+            "speed": DEMONSTRATIONS.speed,
             "outcome": "arrived",
             "map": number,
-            "actions": DRIVES.actions[rows].tolist(),
-            "poses": DRIVES.poses[rows].tolist(),
+            "actions": DEMONSTRATIONS.actions[rows].tolist(),
+            "poses": DEMONSTRATIONS.poses[rows].tolist(),
             "ranges": sensing.ranges.tolist(),
             "walls": (sensing.walls @ (1 << np.arange(9))).tolist(),
             "regions": sensing.target_region.tolist(),
@@ -258,14 +260,18 @@ def kept_drives():
         }
 
 
-def test_own_drives_are_chosen_and_those_that_collided_left_out(lab):
+def test_own_demonstrations_are_chosen_and_those_that_collided_left_out(lab):
     chosen, about = lab.get_by_label("demonstrations"), lab.locator(".about")
     assert lab.evaluate(MAP_IN_SIGHT) < PHONE["height"] - 100
     expect(chosen).to_have_value("six")
-    drives = list(kept_drives())
-    lab.page.evaluate(KEPT, [*drives[:1], drives[1] | {"outcome": "collided"}])
-    expect(chosen).to_have_value("my own drives (1)")
-    expect(about).to_contain_text("1 of your drives did not arrive and is left out. 1")
+    demonstrations = list(kept_demonstrations())
+    lab.page.evaluate(
+        KEPT, [*demonstrations[:1], demonstrations[1] | {"outcome": "collided"}]
+    )
+    expect(chosen).to_have_value("my own demonstrations (1)")
+    expect(about).to_contain_text(
+        "1 of your demonstrations did not arrive and is left out. 1"
+    )
     empty_storage(lab.page)
     expect(chosen).to_have_value("six")
 
@@ -276,11 +282,11 @@ MAP_IN_SIGHT = """(lab) => {
 }"""
 
 
-def test_own_drives_teach_what_the_same_demonstrations_teach(lab, tmp_path):
-    lab.page.evaluate(KEPT, list(kept_drives()))
+def test_own_demonstrations_teach_what_the_same_demonstrations_teach(lab, tmp_path):
+    lab.page.evaluate(KEPT, list(kept_demonstrations()))
     set_number(lab, "iterations", 2)
     rewards = []
-    for name in ("six", "my own drives (6)"):
+    for name in ("six", "my own demonstrations (6)"):
         lab.get_by_label("demonstrations").select_option(name)
         lab.get_by_role("button", name="Learn the reward").click()
         expect(lab.locator(".status").nth(1)).to_contain_text("is kept", timeout=SLOW)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from browser import DESKTOP, PHONE, Visit, empty_storage, touch
-from driving import drive_map, fast, good_drive, keys_of
+from driving import drive_map, fast, good_demonstration, keys_of
 from playwright.sync_api import Locator, expect
 
 SLOW = 240_000  # milliseconds: a training on a busy machine
@@ -63,12 +63,14 @@ def test_five_maps_are_driven_and_a_robot_is_trained_at_a_desk(visit, site):
     lab = opened(visit, site, "playground", ".robot-playground")
     fast(lab)
     for number in range(1, 6):
-        assert "Arrived" in drive_map(lab, keys_of(good_drive(number)))
-    link = lab.get_by_role("link", name="Train a robot on your drives")
+        assert "Arrived" in drive_map(lab, keys_of(good_demonstration(number)))
+    link = lab.get_by_role("link", name="Train a robot on your demonstrations")
     link.press("Enter")
     visit.page.wait_for_url(re.compile("policy-learning.html"))
     lab = visit.page.locator(".imitation-lab")
-    expect(lab.get_by_label("learn from", exact=True)).to_have_value("my drives")
+    expect(lab.get_by_label("learn from", exact=True)).to_have_value(
+        "my demonstrations"
+    )
     iterations = lab.get_by_label("iterations of L-BFGS")
     iterations.press("End")
     expect(iterations).to_have_value("1000")

@@ -1,4 +1,4 @@
-"""What the kernel computes for the explorables on the robot: paths and drives in many of the reader's worlds."""
+"""What the kernel computes for the explorables on the robot: paths and outcomes in many of the reader's worlds."""
 
 from __future__ import annotations
 

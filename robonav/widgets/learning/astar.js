@@ -178,8 +178,8 @@ export function computerExpert() {
   };
 }
 
-/** The expert's demonstration in a world, as robonav.lfd.demonstrate. @param {World} first @returns {RecordedDrive} */
-export function expertDrive(first, speed = 2, maxSteps = 500) {
+/** The expert's demonstration in a world, as robonav.lfd.demonstrate. @param {World} first @returns {Demonstration} */
+export function expertDemonstration(first, speed = 2, maxSteps = 500) {
   const [expert, steps] = [computerExpert(), []];
   let [world, pose, outcome] = [first, startPose(first), "running"];
   while (outcome === "running" && steps.length < maxSteps) {

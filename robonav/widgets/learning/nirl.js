@@ -18,7 +18,7 @@ export const NIRL_SETTINGS = {
   encoder: { sensors: [1, 2, 3, 4, 7, 8, 9], walls: true, target: "sine-cosine" },
 };
 
-/** Steps of drives as decisions. @param {{sensing: Sensing, action: number}[]} steps @returns {Decisions} */
+/** Steps of demonstrations as decisions. @param {{sensing: Sensing, action: number}[]} steps @returns {Decisions} */
 export const decisionsOf = (steps, { encoder }) => ({
   inputs: steps.map(({ sensing }) => Float64Array.from(encode(encoder, sensing))),
   actions: steps.map(({ action }) => action),

@@ -17,7 +17,7 @@ function actionOf(policy, sensing, world, step) {
  * @param {World} first
  * @param {Conditions} conditions
  */
-export function driveWith(policy, first, { speed, noise = 0, slip = null, maxSteps = 500, direction = ROBOT.direction }) {
+export function rollout(policy, first, { speed, noise = 0, slip = null, maxSteps = 500, direction = ROBOT.direction }) {
   let [world, pose, outcome] = [first, startPose(first), "running"];
   const poses = [pose];
   for (let step = 0; step < maxSteps && outcome === "running"; step += 1) {
@@ -37,7 +37,7 @@ export function driveWith(policy, first, { speed, noise = 0, slip = null, maxSte
 export function* trialsJob({ policies, seed, count, conditions }) {
   const arrived = policies.map(() => 0);
   for (const [i, world] of randomWorlds(count, { seed, ...conditions }).entries()) {
-    policies.forEach((policy, k) => (arrived[k] += driveWith(policy, world, conditions).outcome === "arrived" ? 1 : 0));
+    policies.forEach((policy, k) => (arrived[k] += rollout(policy, world, conditions).outcome === "arrived" ? 1 : 0));
     yield { done: i + 1, total: count, live: { at: i + 1, arrived: [...arrived] } };
   }
   return arrived;

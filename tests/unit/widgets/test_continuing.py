@@ -42,7 +42,7 @@ LFD_FILES = (
     "learning/network",
     "learning/lbfgs",
     "learning/trials",
-    "drives",
+    "kept_demonstrations",
     "imitation",
 )
 NIRL_FILES = (
@@ -250,7 +250,7 @@ def test_the_python_of_the_pages_goes_on_from_the_files(tmp_path, monkeypatch, n
     (code,) = re.findall(r"\n```python\n(.*?)```", page, re.DOTALL)
     monkeypatch.chdir(tmp_path)
     shown = demonstrate(random_worlds(3, 10, seed=3))
-    save_demonstrations("my-drives.npz", shown)
+    save_demonstrations("my-demonstrations.npz", shown)
     encoder = Encoder(NNQL_SENSORS, walls=True, target="number")
     network = random_network((encoder.size, 8, 5), seed=3)
     for file in ("my-robot", "my-nnql"):

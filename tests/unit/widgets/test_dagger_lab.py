@@ -13,7 +13,7 @@ from robonav.widgets.simulator import page_world
 FILES = (
     "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
     "learning/network", "learning/lbfgs", "learning/astar", "learning/trials",
-    "learning/worker", "learning/training_panel", "drives", "kept_robots", "imitation", "dagger_lab",
+    "learning/worker", "learning/training_panel", "kept_demonstrations", "kept_robots", "imitation", "dagger_lab",
 )  # fmt: skip
 
 
@@ -48,11 +48,11 @@ def test_the_next_map_where_a_robot_fails_is_found(node):
 
 CORRECT = """
 const base = page.replayed(data.expert);
-const learn = (drives) => {
+const learn = (demonstrations) => {
   const encoder = { sensors: [1, 2, 3, 4, 5, 6, 7, 8, 9], walls: false, target: "sine-cosine" };
   const learning = { sizes: [12, 8, 5], seed: 0, regularisation: 0.1, iterations: 300 };
   const trial = { seed: 2024, maps: 200, obstacles: 10 };
-  const examples = page.examplesFrom(drives);
+  const examples = page.examplesFrom(demonstrations);
   const task = { ...learning, examples, network: null, encoder, rivals: [], trial };
   let [step, arrived, job] = [null, 0, page.imitate(task)];
   for (step = job.next(); !step.done; step = job.next()) {

@@ -1,4 +1,4 @@
-"""The imitation lab: the expert's drives, learning and driving in the page as in Python."""
+"""The imitation lab: the expert's demonstrations, learning and driving in the page as in Python."""
 
 import base64
 
@@ -16,7 +16,8 @@ from robonav.widgets.simulator import page_policy
 FILES = (
     "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
     "learning/network", "learning/lbfgs", "learning/trials", "learning/worker",
-    "learning/training_panel", "learning/kernel_panel", "drives", "kept_robots", "imitation", "imitation_lab",
+    "learning/training_panel", "learning/kernel_panel", "kept_demonstrations", "kept_robots",
+    "imitation", "imitation_lab",
 )  # fmt: skip
 IMITATE = """
 const { expert, trial, seeds, iterations, regularisation, count, book } = data;
@@ -198,13 +199,13 @@ def answers_of(lab, message):
 @pytest.fixture
 def request_of_page(demonstrations, tmp_path):
     """What the page asks the kernel for: two robots, on the demonstrations as the page sends them."""
-    path = tmp_path / "drives.npz"
+    path = tmp_path / "demonstrations.npz"
     save_demonstrations(path, demonstrations)
     return {
         "ask": "train",
         "run": 1,
         "robots": 2,
-        "drives": base64.b64encode(path.read_bytes()).decode(),
+        "demonstrations": base64.b64encode(path.read_bytes()).decode(),
         "settings": {
             "hidden": 8, "regularisation": 1, "iterations": 30, "seed": 3, "obstacles": 10,
         },
@@ -239,7 +240,7 @@ def test_the_kernel_trains_robots_as_learn_policy_does(
     ("change", "error"),
     [
         ({"robots": 0}, "ValueError: robots must be"),
-        ({"drives": ""}, "ValueError: drives.npz is damaged"),
+        ({"demonstrations": ""}, "ValueError: demonstrations.npz is damaged"),
     ],
 )
 def test_what_the_kernel_cannot_train_gets_one_sentence(

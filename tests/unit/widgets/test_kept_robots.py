@@ -75,7 +75,7 @@ def test_settings_that_differ_give_names_that_differ(node):
 
 def test_name_of_a_robot_that_was_trained_on_says_what_it_began_with(node):
     (name,) = names_of(
-        node, QLearningSettings(hidden=3), begun="robot 2: 5 of my drives"
+        node, QLearningSettings(hidden=3), begun="robot 2: 5 of my demonstrations"
     )
     assert name == "nnql, on from robot 2, the book's settings, seed 0"
 
@@ -92,7 +92,12 @@ def test_name_of_an_inverse_learner_says_what_differs(node):
 
 def test_numbers_go_on_from_those_that_are_kept(node):
     body = "return data.map(([kind, names]) => page.nextNumber(kind, names));"
-    names = ["robot 3: two drives", "robot 11: more", "DAgger, robot 20: one", "robots"]
+    names = [
+        "robot 3: two demonstrations",
+        "robot 11: more",
+        "DAgger, robot 20: one",
+        "robots",
+    ]
     cases = [["robot", []], ["robot", names], ["DAgger, robot", names]]
     assert node(FILES, body, cases) == [1, 12, 21]
 

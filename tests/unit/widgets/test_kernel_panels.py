@@ -143,7 +143,7 @@ def test_experts_are_compared_by_the_robots_that_learn_from_them(told):
         "demonstrations": 3, "margin": 3.0, "caution": 2.0, "slips": 0.0,
         "hidden": 4, "regularisation": 0.1, "iterations": 5, "seed": 0,
     }  # fmt: skip
-    request = {"robots": 2, "settings": settings, "drives": None}
+    request = {"robots": 2, "settings": settings, "demonstrations": None}
     ended = lab.train(request, report)
     shown = demonstrate(random_worlds(3, 10, seed=key_points_lab.EXPERT_SEED))
     begun = (

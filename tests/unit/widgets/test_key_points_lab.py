@@ -10,7 +10,7 @@ from robonav.widgets.simulator import page_world
 
 FILES = (
     "simulator", "maps", "episode", "files", "learning/random", "learning/worlds",
-    "drives", "key_points_lab",
+    "kept_demonstrations", "key_points_lab",
 )  # fmt: skip
 WORLDS = random_worlds(12, obstacles=15, seed=3)
 
@@ -49,9 +49,9 @@ def test_the_robot_takes_the_actions_that_it_takes_in_python(node):
     body = """
       return data.map(({ world, points }) => {
         const { path } = page.smoothPath([world.start, ...points, world.target]);
-        const drive = page.followedEpisode(world, path);
-        while (drive.running()) drive.go();
-        return { actions: drive.episode.steps.map(({ action }) => action), outcome: drive.episode.outcome };
+        const followed = page.followedEpisode(world, path);
+        while (followed.running()) followed.go();
+        return { actions: followed.episode.steps.map(({ action }) => action), outcome: followed.episode.outcome };
       });
     """
     data = [

@@ -66,7 +66,7 @@ def test_the_expert_demonstrates_as_in_python(node, obstacles, speed):
     worlds = random_worlds(25 if speed > 1 else 5, obstacles, seed=7)
     demonstrations = demonstrate(worlds, speed=speed)
     body = """return data.worlds.map((world) => {
-      const { steps, outcome } = page.expertDrive(world, data.speed);
+      const { steps, outcome } = page.expertDemonstration(world, data.speed);
       return { actions: steps.map(({ action }) => action), outcome };
     });"""
     given = {"worlds": [page_world(w) for w in worlds], "speed": speed}

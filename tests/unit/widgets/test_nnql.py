@@ -192,8 +192,8 @@ return settings.map((own) => {
     network = episode.network;
   }
   const policy = { network, encoder: page.encoderOf(own) };
-  const drives = worlds.map((world) => page.driveWith(policy, world, { speed, maxSteps: steps }).outcome);
-  return { outcomes, arrived: drives.filter((outcome) => outcome === "arrived").length };
+  const demonstrations = worlds.map((world) => page.rollout(policy, world, { speed, maxSteps: steps }).outcome);
+  return { outcomes, arrived: demonstrations.filter((outcome) => outcome === "arrived").length };
 });
 """
 
@@ -313,8 +313,8 @@ def test_settings_go_to_the_page_and_back():
 
 
 FAULTY = """
-const driven = new Map(); // presets share their cures
-const drive = (settings) => {
+const kept = new Map(); // presets share their cures
+const trained = (settings) => {
   const [outcomes, outside] = [[], []];
   let network = null;
   for (const episode of page.neuralQLearning(settings)) {
@@ -326,7 +326,7 @@ const drive = (settings) => {
   const { speed, maxSteps, direction, obstacles, moving } = settings;
   const policy = { network, encoder: page.encoderOf(settings) };
   const ends = page.randomWorlds(100, { seed: data.seed, obstacles, moving, ...page.NNQL_ENDS })
-    .map((world) => page.driveWith(policy, world, { speed, maxSteps, direction }).outcome);
+    .map((world) => page.rollout(policy, world, { speed, maxSteps, direction }).outcome);
   const count = (list, end) => list.filter((outcome) => outcome === end).length;
   const late = outside.slice(-100);
   return {
@@ -337,8 +337,8 @@ const drive = (settings) => {
 };
 return data.settings.map((settings) => {
   const key = JSON.stringify(settings);
-  if (!driven.has(key)) driven.set(key, drive(settings));
-  return driven.get(key);
+  if (!kept.has(key)) kept.set(key, trained(settings));
+  return kept.get(key);
 });
 """
 

@@ -1,4 +1,4 @@
-"""The reward lab's JavaScript under Node: rewards, and drives that follow them, are Python's."""
+"""The reward lab's JavaScript under Node: rewards, and episodes that follow them, are Python's."""
 
 from dataclasses import replace
 from functools import partial
@@ -91,20 +91,20 @@ def test_a_robot_that_looks_no_further_drives_as_in_python(page, decisions, thet
     expected = navigate(policy, worlds, SPEED, 200, record_paths=True)
     body = """return data.worlds.map((world) => page.episodeOf(data.plan, world))
       .map(({ poses, outcome }) => ({ poses, outcome }));"""
-    drives = page(
+    episodes = page(
         body,
         {
             "plan": plan(decisions, theta, 1),
             "worlds": [page_world(world) for world in worlds],
         },
     )
-    assert {"arrived", "collided"} <= {drive["outcome"] for drive in drives}
-    for drive, path, outcome in zip(
-        drives, expected.paths, expected.outcome, strict=True
+    assert {"arrived", "collided"} <= {episode["outcome"] for episode in episodes}
+    for episode, path, outcome in zip(
+        episodes, expected.paths, expected.outcome, strict=True
     ):
-        assert drive["outcome"] == outcome.replace("out of steps", "running")
+        assert episode["outcome"] == outcome.replace("out of steps", "running")
         np.testing.assert_allclose(
-            [list(pose.values()) for pose in drive["poses"]], path, rtol=0, atol=1e-9
+            [list(pose.values()) for pose in episode["poses"]], path, rtol=0, atol=1e-9
         )
 
 

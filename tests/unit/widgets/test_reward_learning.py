@@ -18,7 +18,7 @@ SETTINGS = {
     "iterations": 4, "obstacles": 20, "inverseTemperature": 25, "seed": 5, "hidden": 10,
 }  # fmt: skip
 REQUEST = {
-    "ask": "train", "run": 1, "method": "nirl", "robots": 2, "set": 0, "drives": None, "settings": SETTINGS,
+    "ask": "train", "run": 1, "method": "nirl", "robots": 2, "set": 0, "demonstrations": None, "settings": SETTINGS,
 }  # fmt: skip
 
 
@@ -31,7 +31,7 @@ def widget():
 @pytest.fixture
 def sent(tmp_path):
     """The demonstrations as the page sends them."""
-    path = tmp_path / "drives.npz"
+    path = tmp_path / "demonstrations.npz"
     save_demonstrations(path, DEMONSTRATIONS)
     return base64.b64encode(path.read_bytes()).decode()
 
@@ -71,8 +71,10 @@ def test_robots_are_trained_as_learn_trains_them(widget):
         "scirl",
     ],
 )
-def test_other_methods_learn_from_the_drives_of_the_reader(widget, sent, method):
-    message = REQUEST | {"method": method, "robots": 1, "drives": sent}
+def test_other_methods_learn_from_the_demonstrations_of_the_reader(
+    widget, sent, method
+):
+    message = REQUEST | {"method": method, "robots": 1, "demonstrations": sent}
     *told, last = answers_of(widget, message)
     assert "error" not in last, last
     (got,) = widget.trainings
@@ -81,7 +83,7 @@ def test_other_methods_learn_from_the_drives_of_the_reader(widget, sent, method)
     assert any("live" in answer for answer in told)
 
 
-def test_the_page_sends_drives_as_the_file_that_it_saves(sent):
+def test_the_page_sends_demonstrations_as_the_file_that_it_saves(sent):
     got = page_demonstrations(sent)
     np.testing.assert_array_equal(got.actions, DEMONSTRATIONS.actions)
     np.testing.assert_array_equal(got.poses, DEMONSTRATIONS.poses)
@@ -93,7 +95,10 @@ def test_the_page_sends_drives_as_the_file_that_it_saves(sent):
         ({"method": "none"}, "ValueError: method must be"),
         ({"robots": 0}, "ValueError: robots must be"),
         ({"settings": SETTINGS | {"iterations": 0}}, "ValueError: iterations must be"),
-        ({"drives": base64.b64encode(b"no").decode()}, "ValueError: drives.npz is"),
+        (
+            {"demonstrations": base64.b64encode(b"no").decode()},
+            "ValueError: demonstrations.npz is",
+        ),
     ],
 )
 def test_what_cannot_be_trained_gets_one_sentence(widget, change, error):

@@ -15,7 +15,7 @@ from robonav.widgets.robot_playground import robot_playground
 from robonav.widgets.simulator import page_policy, page_world
 
 FILE = """
-const bytes = page.demonstrationsFile([{ ...drive, world: drive.base }]);
+const bytes = page.demonstrationsFile([{ ...episode, world: episode.base }]);
 return btoa(String.fromCharCode(...bytes));
 """
 
@@ -27,18 +27,18 @@ def page(node):
 
 
 @pytest.mark.parametrize(("obstacles", "moving"), [(12, 0), (6, 6), (0, 0)])
-def test_a_drive_saved_by_the_page_is_a_demonstration(
+def test_a_demonstration_saved_by_the_page_is_a_demonstration(
     page, tmp_path, obstacles, moving
 ):
     world = random_worlds(1, obstacles, moving, seed=4)
     body = """
-      const drive = page.makeEpisode(data, 2.5);
-      while (drive.outcome === "running" && drive.step < 300) drive.go(page.freerSide(drive.sensing));
+      const episode = page.makeEpisode(data, 2.5);
+      while (episode.outcome === "running" && episode.step < 300) episode.go(page.freerSide(episode.sensing));
     """
-    (tmp_path / "drive.npz").write_bytes(
+    (tmp_path / "episode.npz").write_bytes(
         base64.b64decode(page(body + FILE, page_world(world)))
     )
-    got = load_demonstrations(tmp_path / "drive.npz")
+    got = load_demonstrations(tmp_path / "episode.npz")
     expected = navigate(turn_to_clearer_side, world, 2.5, record_paths=True)
     assert got.worlds.digest() == world.digest()
     assert got.speed == 2.5
@@ -48,16 +48,16 @@ def test_a_drive_saved_by_the_page_is_a_demonstration(
 
 def test_an_edited_world_is_driven_and_saved_as_edited(page, tmp_path):
     body = """
-      const drive = page.makeEpisode(data, 2);
+      const episode = page.makeEpisode(data, 2);
       const own = { circle: true, x: 50, y: 50, a: 5, b: 0, turned: 0, speed: 0, heading: 0 };
-      drive.edit((world) => world.obstacles.push(own));
-      drive.go(0);
+      episode.edit((world) => world.obstacles.push(own));
+      episode.go(0);
     """
     world = random_worlds(1, 2, seed=4)
-    (tmp_path / "drive.npz").write_bytes(
+    (tmp_path / "episode.npz").write_bytes(
         base64.b64decode(page(body + FILE, page_world(world)))
     )
-    got = load_demonstrations(tmp_path / "drive.npz")
+    got = load_demonstrations(tmp_path / "episode.npz")
     assert got.worlds.slots == 3
     assert got.worlds.shapes[0, 2, 0] == 5
     assert got.outcome[0] == "out of steps"

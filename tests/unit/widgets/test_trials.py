@@ -22,7 +22,7 @@ const unpacked = ({ network, ...rest }) => (network ? { ...rest, network: page.n
 const policies = data.policies.map(unpacked);
 const worlds = page.randomWorlds(data.count, { seed: data.seed, ...data.conditions });
 return policies.map((policy) => worlds.map((world) => {
-  const { poses, outcome } = page.driveWith(policy, world, data.conditions);
+  const { poses, outcome } = page.rollout(policy, world, data.conditions);
   return { steps: poses.length - 1, outcome };
 }));
 """

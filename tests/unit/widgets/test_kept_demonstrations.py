@@ -1,4 +1,4 @@
-"""The reader's drives: kept as text, written to and read from files that Python shares."""
+"""The reader's demonstrations: kept as text, written to and read from files that Python shares."""
 
 import base64
 
@@ -12,7 +12,7 @@ from robonav.robot import Encoder, concatenate, random_worlds
 from robonav.widgets.simulator import page_world
 
 FILES = (
-    "simulator", "maps", "episode", "files", "learning/random", "learning/worlds", "drives",
+    "simulator", "maps", "episode", "files", "learning/random", "learning/worlds", "kept_demonstrations",
 )  # fmt: skip
 BUFFER = "const buffer = Uint8Array.from(atob(data), (c) => c.charCodeAt(0)).buffer;"
 BYTES = "return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));"
@@ -33,9 +33,10 @@ const get = () => {
   return localStorage;
 };
 Object.defineProperty(globalThis, "localStorage", { get });
-const drive = page.makeEpisode(page.ownMap(3), 2);
-while (drive.outcome === "running") drive.go(0);
-const record = { world: drive.base, speed: 2, steps: drive.steps, outcome: drive.outcome, map: 3 };
+const demonstration = page.makeEpisode(page.ownMap(3), 2);
+while (demonstration.outcome === "running") demonstration.go(0);
+const { base: world, steps, outcome } = demonstration;
+const record = { world, speed: 2, steps, outcome, map: 3 };
 """
 
 
@@ -50,10 +51,10 @@ def demonstrations():
     return demonstrate(concatenate([part.with_slots(10) for part in parts]))
 
 
-def test_drives_of_python_come_back_to_python(node, demonstrations, tmp_path):
+def test_demonstrations_of_python_come_back_to_python(node, demonstrations, tmp_path):
     save_demonstrations(tmp_path / "there.npz", demonstrations)
-    body = f"""{BUFFER} return page.drivesFromFile(buffer).then((drives) => {{
-      const bytes = page.demonstrationsFile(drives); {BYTES}
+    body = f"""{BUFFER} return page.demonstrationsFromFile(buffer).then((demonstrations) => {{
+      const bytes = page.demonstrationsFile(demonstrations); {BYTES}
     }});"""
     back = node(FILES, body, encoded(tmp_path / "there.npz"))
     (tmp_path / "back.npz").write_bytes(base64.b64decode(back))
@@ -68,8 +69,8 @@ def test_drives_of_python_come_back_to_python(node, demonstrations, tmp_path):
 
 
 def test_arrays_stored_by_columns_are_read(node, demonstrations, tmp_path):
-    save_demonstrations(tmp_path / "drives.npz", demonstrations)
-    arrays = archive.read_archive(tmp_path / "drives.npz")
+    save_demonstrations(tmp_path / "demonstrations.npz", demonstrations)
+    arrays = archive.read_archive(tmp_path / "demonstrations.npz")
     turned = {
         name: np.asfortranarray(array) if array.ndim > 1 else array
         for name, array in arrays.items()
@@ -77,7 +78,8 @@ def test_arrays_stored_by_columns_are_read(node, demonstrations, tmp_path):
     archive.write_archive(tmp_path / "turned.npz", turned, compressed=False)
     body = f"""{BUFFER}
       const ranges = (steps) => steps.map(({{ sensing }}) => sensing.ranges);
-      return page.drivesFromFile(buffer).then((drives) => drives.map(({{ world, steps }}) => [world, ranges(steps)]));
+      return page.demonstrationsFromFile(buffer)
+        .then((demonstrations) => demonstrations.map(({{ world, steps }}) => [world, ranges(steps)]));
     """
     got = node(FILES, body, encoded(tmp_path / "turned.npz"))
     for i, (world, ranges) in enumerate(got):
@@ -87,8 +89,8 @@ def test_arrays_stored_by_columns_are_read(node, demonstrations, tmp_path):
 
 
 def broken(tmp_path, demonstrations, **changes):
-    save_demonstrations(tmp_path / "drives.npz", demonstrations)
-    arrays = archive.read_archive(tmp_path / "drives.npz")
+    save_demonstrations(tmp_path / "demonstrations.npz", demonstrations)
+    arrays = archive.read_archive(tmp_path / "demonstrations.npz")
     for name, change in changes.items():
         arrays[name] = change(arrays[name])
     archive.write_archive(tmp_path / "broken.npz", arrays)
@@ -131,16 +133,14 @@ def broken(tmp_path, demonstrations, **changes):
             lambda path, demonstrations: broken(
                 path, demonstrations, outcome=lambda a: a + 7
             ),
-            "a drive ends in a way that there is not",
+            "a demonstration ends in a way that there is not",
         ),
     ],
 )
-def test_a_file_that_is_no_drive_gets_one_sentence(
+def test_a_file_that_is_no_demonstration_gets_one_sentence(
     node, demonstrations, tmp_path, content, why
 ):
-    body = (
-        f"{BUFFER} return page.drivesFromFile(buffer).catch((error) => error.message);"
-    )
+    body = f"{BUFFER} return page.demonstrationsFromFile(buffer).catch((error) => error.message);"
     said = node(
         FILES, body, base64.b64encode(content(tmp_path, demonstrations)).decode()
     )
@@ -150,12 +150,12 @@ def test_a_file_that_is_no_drive_gets_one_sentence(
 def test_weights_of_the_page_are_weights_of_python(node, tmp_path):
     encoder = Encoder(target="signed")
     network = random_network((encoder.size, 6, 5), seed=3)
-    about = Weights(network, "lfd", encoder, {"drives": 4}, temperature=0.5)
+    about = Weights(network, "lfd", encoder, {"demonstrations": 4}, temperature=0.5)
     save_weights(tmp_path / "there.safetensors", about)
     body = f"""{BUFFER}
       const policy = page.weightsFromFile(buffer);
       const whole = {{ ...policy, network: page.networks(policy.network)() }};
-      const bytes = page.weightsFile({{ ...whole, method: "lfd" }}, {{ drives: 4 }}); {BYTES}"""
+      const bytes = page.weightsFile({{ ...whole, method: "lfd" }}, {{ demonstrations: 4 }}); {BYTES}"""
     back = node(FILES, body, encoded(tmp_path / "there.safetensors"))
     (tmp_path / "back.safetensors").write_bytes(base64.b64decode(back))
     got = load_weights(tmp_path / "back.safetensors")
@@ -164,23 +164,23 @@ def test_weights_of_the_page_are_weights_of_python(node, tmp_path):
     for ours, theirs in zip(got.network.biases, network.biases, strict=True):
         np.testing.assert_array_equal(ours, theirs)
     assert (got.method, got.encoder, got.temperature) == ("lfd", encoder, 0.5)
-    assert got.made == {"drives": 4, "page": True}
+    assert got.made == {"demonstrations": 4, "page": True}
 
 
-def test_drives_are_kept_listed_and_deleted(node):
+def test_demonstrations_are_kept_listed_and_deleted(node):
     body = (
         STORAGE
         + """
       const faster = { ...record, speed: record.speed + 1 };
-      const said = page.keepDrives([record, faster, record]);
-      const again = page.keepDrives([faster]);
-      const drives = page.keptDrives();
-      const same = JSON.stringify(drives[0].steps) === JSON.stringify(record.steps);
+      const said = page.keepDemonstrations([record, faster, record]);
+      const again = page.keepDemonstrations([faster]);
+      const demonstrations = page.keptDemonstrations();
+      const same = JSON.stringify(demonstrations[0].steps) === JSON.stringify(record.steps);
       let heard = 0;
-      const end = page.watchDrives(() => { heard += 1; });
-      page.deleteDrives([drives[0].id]);
-      const [map, left] = [page.nextMap(drives), page.keptDrives().length];
-      return { said, again, same, first: drives.length, map, left, heard, inMemory: kept.size === 0 };
+      const end = page.watchDemonstrations(() => { heard += 1; });
+      page.deleteDemonstrations([demonstrations[0].id]);
+      const [map, left] = [page.nextMap(demonstrations), page.keptDemonstrations().length];
+      return { said, again, same, first: demonstrations.length, map, left, heard, inMemory: kept.size === 0 };
     """
     )
     got = node(FILES, body, {"allowed": True})
@@ -190,45 +190,45 @@ def test_drives_are_kept_listed_and_deleted(node):
     }  # fmt: skip
 
 
-def test_blocked_storage_keeps_drives_in_memory(node):
+def test_blocked_storage_keeps_demonstrations_in_memory(node):
     body = (
         STORAGE
-        + "return [page.keepDrives([record]).warning, page.keptDrives().length, kept.size];"
+        + "return [page.keepDemonstrations([record]).warning, page.keptDemonstrations().length, kept.size];"
     )
     said, count, stored = node(FILES, body, {"allowed": False})
     assert (
         said
-        == "This browser keeps nothing for this page: your drives last until you close it."
+        == "This browser keeps nothing for this page: your demonstrations last until you close it."
     )
     assert (count, stored) == (1, 0)
 
 
-def test_full_storage_keeps_drives_in_memory(node):
+def test_full_storage_keeps_demonstrations_in_memory(node):
     body = (
         STORAGE
         + """
-      page.keepDrives([record]);
+      page.keepDemonstrations([record]);
       room = 100;
-      const said = page.keepDrives([{ ...record, speed: 3 }]).warning;
-      const both = page.keptDrives();
-      page.deleteDrives(both.map(({ id }) => id));
-      return [said, both.length, page.keptDrives().length];
+      const said = page.keepDemonstrations([{ ...record, speed: 3 }]).warning;
+      const both = page.keptDemonstrations();
+      page.deleteDemonstrations(both.map(({ id }) => id));
+      return [said, both.length, page.keptDemonstrations().length];
     """
     )
     said, count, left = node(FILES, body, {"allowed": True})
     assert said.startswith(
-        "The browser's storage is full: your drives made from now on last until"
+        "The browser's storage is full: your demonstrations made from now on last until"
     )
     assert (count, left) == (2, 0)
 
 
-def test_what_is_no_drive_in_the_storage_is_left_out(node):
+def test_what_is_no_demonstration_in_the_storage_is_left_out(node):
     body = (
         STORAGE
         + """
       for (const text of ["", "{}", "[1]", "null", '{"actions": []}']) kept.set(`robonav.drive.${text.length}`, text);
-      page.keepDrives([record]);
-      return page.keptDrives().length;
+      page.keepDemonstrations([record]);
+      return page.keptDemonstrations().length;
     """
     )
     assert node(FILES, body, {"allowed": True}) == 1
@@ -247,7 +247,7 @@ def test_the_readers_maps_are_random_worlds(node, number):
 ADVICE = """
 const { start, target } = data.world;
 const steps = (actions) => actions.map((action) => ({ action, sensing: { ranges: action < 0 ? [10] : [4] } }));
-const made = data.drives.map(([outcome, actions, count, safe = 0]) => Array.from({ length: count }, () => ({
+const made = data.demonstrations.map(([outcome, actions, count, safe = 0]) => Array.from({ length: count }, () => ({
   outcome, speed: 2, world: { start, target }, steps: [...steps(actions), ...steps(Array(safe).fill(-1))],
 }))).flat();
 const arrived = made.filter(({ outcome }) => outcome === "arrived");
@@ -258,27 +258,29 @@ GOOD = [0, 3, 3, 0, 0, 1, 1, 0, 0, 2, 0, 4]
 
 
 @pytest.mark.parametrize(
-    ("drives", "learned", "sentence"),
+    ("demonstrations", "learned", "sentence"),
     [
-        ([("arrived", GOOD, 1, 30), ("collided", GOOD, 2)], None, "Only 1 of your 3 drives arrived, and"),
-        ([("arrived", GOOD, 2, 30)], None, "Three drives are enough for a first robot: bring the robot"),
-        ([("arrived", GOOD, 5, 30)], 2, "It learned from two of your 5 drives that arrived: choose more of them."),
-        ([("arrived", GOOD, 3, 80)], None, "Your drives are 2.3 times as long as the straight line"),
-        ([("arrived", [0, 3, 1], 3, 40)], None, "Your drives have only 3 steps each with something in range"),
+        ([("arrived", GOOD, 1, 30), ("collided", GOOD, 2)], None, "Only 1 of your 3 demonstrations arrived, and"),
+        ([("arrived", GOOD, 2, 30)], None, "Three demonstrations are enough for a first robot: bring the robot"),
+        ([("arrived", GOOD, 5, 30)], 2, "It learned from two of your 5 demonstrations that arrived: choose more"),
+        ([("arrived", GOOD, 3, 80)], None, "Your demonstrations are 2.3 times as long as the straight line"),
+        ([("arrived", [0, 3, 1], 3, 40)], None, "Your demonstrations have only 3 steps each with something in range"),
         ([("arrived", [0] * 9 + [3], 3, 30)], None, "You turned in only 10 % of the steps with something in range"),
-        ([("arrived", GOOD, 3, 30), ("collided", GOOD, 4)], None, "More of your drives collided than arrived"),
+        ([("arrived", GOOD, 3, 30), ("collided", GOOD, 4)], None, "More of your demonstrations collided than arrived"),
         ([("arrived", GOOD, 3, 30)], None, "Drive more maps, turn earlier and at a larger distance"),
     ],
 )  # fmt: skip
-def test_advice_says_what_is_poor_in_the_drives(node, drives, learned, sentence):
-    data = {"world": WORLD, "drives": drives, "learned": learned}
+def test_advice_says_what_is_poor_in_the_demonstrations(
+    node, demonstrations, learned, sentence
+):
+    data = {"world": WORLD, "demonstrations": demonstrations, "learned": learned}
     assert node(FILES, ADVICE, data).startswith(sentence)
 
 
-def test_careful_drives_are_not_called_poor(node, tmp_path):
-    """The computer expert's drives, which teach a good robot, are within all bounds of the advice."""
+def test_careful_demonstrations_are_not_called_poor(node, tmp_path):
+    """The computer expert's demonstrations, which teach a good robot, are within all bounds of the advice."""
     demonstrations = demonstrate(random_worlds(10, 10, seed=7))
     save_demonstrations(tmp_path / "good.npz", demonstrations)
-    body = f"{BUFFER} return page.drivesFromFile(buffer).then((drives) => page.adviceOn(drives, drives));"
+    body = f"{BUFFER} return page.demonstrationsFromFile(buffer).then((shown) => page.adviceOn(shown, shown));"
     said = node(FILES, body, encoded(tmp_path / "good.npz"))
     assert said.startswith("Drive more maps, turn earlier and at a larger distance")
