@@ -10,7 +10,7 @@ from robonav import lfd, style
 from robonav.plots.robot import draw_maps
 from robonav.robot import navigate, random_worlds
 
-PICTURE = Path(__file__).resolve().parents[1] / "_static" / "drives.png"
+PICTURE = Path(__file__).resolve().parents[1] / "_static" / "navigation.png"
 
 plt.rcParams.update(style.STYLE)
 policy = lfd.learn_policy(lfd.demonstrate(random_worlds(25, obstacles=10, seed=7)))

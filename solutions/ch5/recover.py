@@ -3,7 +3,7 @@ acted optimally for a reward $r(s) = \theta \cdot f(s)$ that you do not know. Yo
 given the cells that it visited. Find weights $\theta$ for which an optimal robot drives
 like the expert; several are as good. The check plans with your weights, drives the
 robot in this grid and in another one with the same kinds of terrain, and compares the
-true reward of both drives. Any method of the chapter is fine: projection, the widest
+true reward of both trajectories. Any method of the chapter is fine: projection, the widest
 margin, or maximum entropy.
 """
 
@@ -23,7 +23,7 @@ def recover(
     ----------
     transitions : (A, S, S), probability of each next cell after an action in a cell.
     features : (S, k), features of each cell: 1 for its kind of terrain, else 0.
-    paths : (N, T), the cells that the expert visited in N drives, in order.
+    paths : (N, T), the cells that the expert visited in N episodes, in order.
     discount : discount factor in [0, 1).
 
     Returns

@@ -236,7 +236,7 @@ def test_without_own_demonstrations_one_sentence_says_where_to_drive(lab):
 
 
 KEPT = """(demonstrations) => {
-  for (const [k, shown] of demonstrations.entries()) localStorage.setItem(`robonav.drive.test.${k}`, JSON.stringify(shown));
+  demonstrations.forEach((shown, k) => localStorage.setItem(`robonav.drive.test.${k}`, JSON.stringify(shown)));
   window.dispatchEvent(new StorageEvent("storage", { key: null }));
 }"""
 

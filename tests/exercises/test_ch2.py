@@ -391,7 +391,7 @@ def test_explorer_that_has_seen_nothing(answer, rng):
 
 
 def steered(answer, worlds):
-    """How the drives end of robots that the student's function steers, without reflexes."""
+    """How the episodes end of robots that the student's function steers, without reflexes."""
     from robonav.robot import navigate
 
     def policy(sensing, rng):
@@ -413,7 +413,7 @@ def steered(answer, worlds):
 
 def steers(answer, rng, obstacles, least):
     """Require that many of 200 robots arrive. Among fewer, a robot that goes straight could pass by luck."""
-    from robonav.grading.drives import require_arrivals
+    from robonav.grading.episode_outcomes import require_arrivals
     from robonav.robot import random_worlds
 
     outcomes = steered(answer, random_worlds(200, obstacles, seed=rng))

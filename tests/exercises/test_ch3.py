@@ -418,7 +418,7 @@ def test_imitate_the_expert(answer, rng):
 @pytest.mark.part("3.8", points=6)
 def test_imitate_and_drive(answer, rng):
     """Arrives in four of five new worlds with ten obstacles; a robot that goes straight arrives in two of five."""
-    from robonav.grading.drives import require_arrivals
+    from robonav.grading.episode_outcomes import require_arrivals
     from robonav.robot import Encoder, navigate, random_worlds
 
     order, encoder = rng.permutation(9), Encoder()

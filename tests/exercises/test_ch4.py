@@ -343,11 +343,11 @@ def cured(answer, rng, raised):
         (right, _), (own, failed) = (100 * np.mean(shares, axis=0)).astype(int)
         answer.check(
             own >= right - 2,
-            f"expected {right} of 100 drives to arrive, got {own}; "
+            f"expected {right} of 100 episodes to arrive, got {own}; "
             f"collisions: {failed}, for ever on the way: {100 - own - failed}",
-            "Some drives end in an obstacle: a reward on the way is now so low that failing costs less."
+            "Some episodes end in an obstacle: a reward on the way is now so low that failing costs less."
             if failed > 100 - own - failed
-            else "Some drives never end: going to and fro, or staying, still pays. Add the rewards of a way that leads "
+            else "Some episodes never end: going to and fro, or staying, still pays. Add the rewards of a way that leads "
             "back to where it began.",
         )
         changed = int((~np.isclose(got, table)).sum())
@@ -432,7 +432,7 @@ class Learner:
 
 
 def learned(answer, rng, obstacles):
-    """Let a robot practise in five rounds, and see how its drives end in 100 new worlds."""
+    """Let a robot practise in five rounds, and see how its episodes end in 100 new worlds."""
     from robonav.robot import navigate, random_worlds
 
     robot, steps = Learner(rng), None
@@ -459,7 +459,7 @@ def learned(answer, rng, obstacles):
 @pytest.mark.part("4.9", points=10)
 def test_practise_and_drive(answer, rng):
     """Arrives in two of three worlds with two robots that are wired otherwise; going straight, in two of five."""
-    from robonav.grading.drives import require_arrivals
+    from robonav.grading.episode_outcomes import require_arrivals
 
     require_arrivals(
         answer,

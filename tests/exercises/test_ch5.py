@@ -313,8 +313,8 @@ def worth(flow, reward, discount):
     return np.linalg.solve(np.eye(len(reward)) - discount * flow, reward).mean()
 
 
-def drives(rng, flow, n=60, length=40):
-    """Cells visited in some drives from random cells."""
+def expert_paths(rng, flow, n=60, length=40):
+    """Cells visited in some episodes from random cells."""
     paths = np.empty((n, length), dtype=np.int64)
     paths[:, 0] = rng.integers(len(flow), size=n)
     for t in range(1, length):
@@ -333,7 +333,7 @@ def recovered(answer, rng, elsewhere, least):
         transitions, features = terrain(rng, order=order)
         theta = np.append(rng.uniform(-1.0, 0.0, size=len(order) - 1), 1.0)[order]
         flow = optimal(transitions, features @ theta, discount)
-        got = answer.ask(transitions, features, drives(rng, flow), discount)
+        got = answer.ask(transitions, features, expert_paths(rng, flow), discount)
         weights = as_numbers(got)
         fits = (
             weights is not None
@@ -373,7 +373,7 @@ def test_recover_something(answer, rng):
 
 
 @pytest.mark.part("5.7", points=4)
-def test_recover_the_drives(answer, rng):
+def test_recover_the_demonstrations(answer, rng):
     """Gains nearly as much true reward as the expert does, 95 %."""
     recovered(answer, rng, False, 95)
 

@@ -336,7 +336,7 @@ class Remembering:
 
 def escapes(answer, worlds, least):
     """Require that many of the robots arrive."""
-    from robonav.grading.drives import require_arrivals
+    from robonav.grading.episode_outcomes import require_arrivals
     from robonav.robot import navigate
 
     require_arrivals(
@@ -432,7 +432,7 @@ class Actor:
 
 
 def reinforced(answer, rng, obstacles):
-    """Let a robot practise in twelve rounds, and see how its drives end in 100 new worlds."""
+    """Let a robot practise in twelve rounds, and see how its episodes end in 100 new worlds."""
     from robonav.robot import navigate, random_worlds
 
     robot = Actor(rng)
@@ -456,9 +456,9 @@ def reinforced(answer, rng, obstacles):
     return navigate(robot.drive, worlds, max_steps=150).outcome
 
 
-def drives_well(answer, rng, obstacles, least):
-    """Require that many of 100 drives arrive after practice among so many obstacles."""
-    from robonav.grading.drives import require_arrivals
+def navigates_well(answer, rng, obstacles, least):
+    """Require that many of 100 episodes arrive after practice among so many obstacles."""
+    from robonav.grading.episode_outcomes import require_arrivals
 
     require_arrivals(
         answer,
@@ -475,10 +475,10 @@ def drives_well(answer, rng, obstacles, least):
 @pytest.mark.part("6.7", points=6)
 def test_reinforce_among_ten_obstacles(answer, rng):
     """Arrives in 80 of 100 new worlds with ten obstacles; a robot that goes straight arrives in 40."""
-    drives_well(answer, rng, 10, 80)
+    navigates_well(answer, rng, 10, 80)
 
 
 @pytest.mark.part("6.7", points=4)
 def test_reinforce_among_twenty_obstacles(answer, rng):
     """Arrives in 70 of 100 new worlds with twenty obstacles; a robot that goes straight arrives in 15."""
-    drives_well(answer, rng, 20, 70)
+    navigates_well(answer, rng, 20, 70)

@@ -226,7 +226,7 @@ GIVEN = {
             "the robot may fail as often as it likes, and it is easy to score what it does",
             "trials cost nothing, and the reward has three lines",
             "the robot practises night after night, and a counter says how well it did",
-            "a step in the simulator takes a microsecond, and the success of a drive can be written as a number",
+            "a step in the simulator takes a microsecond, and the success of an episode can be written as a number",
         ),
         "Trial and error needs no expert. It needs a reward that describes the task, and many trials.",
     ),

@@ -39,11 +39,11 @@ OF_IMITATION = (
     ),
     Line(
         "The recorded steps in which the reflex acted are left out",
-        "Steps can be left out only after an expert's drives were recorded.",
+        "Steps can be left out only after an expert's demonstrations were recorded.",
     ),
     Line(
         "The pairs of state and action that are left become the rows of two matrices",
-        "The rows are those pairs of the expert's drives in which the expert decided.",
+        "The rows are those pairs of the expert's demonstrations in which the expert decided.",
     ),
     Line(
         "A network is trained to give the action of each row",
@@ -186,7 +186,7 @@ OF_A_COMPARISON = (
     ),
     Line(
         "The mean success of each method is computed, with its interval",
-        "A success rate is computed from the drives of trained robots.",
+        "A success rate is computed from the episodes of trained robots.",
     ),
     Line(
         "The intervals of the two methods are compared",

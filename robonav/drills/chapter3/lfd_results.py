@@ -65,9 +65,9 @@ def compounding(rng: Rng) -> Question:
     error = float(rng.integers(2, 41)) / 100
     steps = int(rng.integers(2, 6))
     # state 0 is on the expert's path and state 1 off it; the reward counts errors; action 1 would end the episode
-    drives = [[1 - error, error, 0], [0, 1, 0], [0, 0, 1]]
+    forward = [[1 - error, error, 0], [0, 1, 0], [0, 0, 1]]
     rewards = [[error, 0], [1, 0], [0, 0]]
-    model = mdp.FiniteMDP([drives, [[0, 0, 1]] * 3], rewards, discount=1)
+    model = mdp.FiniteMDP([forward, [[0, 0, 1]] * 3], rewards, discount=1)
     answer = float(mdp.finite_horizon_evaluation(model, [0, 0, 0], steps)[0])
     right = 1 - error
     terms = [1 - right**t for t in range(1, steps + 1)]

@@ -52,7 +52,7 @@ def rates_of(policy: Policy, body: str, worlds: Worlds, seed: int) -> Numbers:
     return outcome_rates(ends) | {"seconds to the target": seconds}
 
 
-def drive_body(case: Case, seed: int, scale: str) -> Numbers:
+def run_body(case: Case, seed: int, scale: str) -> Numbers:
     """Drive the robots of a case through worlds of the leaderboard."""
     worlds = board_worlds(BODY["setting"], seed, BODY["worlds"][scale])
     return rates_of(policy_of(str(case["method"])), str(case["body"]), worlds, seed)
@@ -89,7 +89,7 @@ EXPERIMENTS = (
         cases=[
             {"method": method, "body": body} for method in METHODS for body in BODIES
         ],
-        run=drive_body,
+        run=run_body,
         seeds=BODY["seeds"],
         settings=ABOUT | {"bodies": BODIES},
         note="No policy was trained or tuned for a body. It needs the extra body.",

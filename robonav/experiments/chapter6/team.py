@@ -49,7 +49,7 @@ def team_rates(navigation: TeamNavigation) -> dict[str, float]:
     return {name: 100 * float(rate) for name, rate in rates.items()}
 
 
-def drive_team(
+def run_team(
     policy: Policy | PolicyWithMemory, robots: int, seed: int, scale: str
 ) -> Numbers:
     """Outcome rates of one policy that drives the first robots of each map of a run."""
@@ -63,7 +63,7 @@ def drive_team(
 
 def evaluate_team(case: Case, seed: int, scale: str) -> Numbers:
     """Drive the robots of a case."""
-    return drive_team(policy_of(str(case["method"])), int(case["robots"]), seed, scale)
+    return run_team(policy_of(str(case["method"])), int(case["robots"]), seed, scale)
 
 
 @lru_cache(maxsize=64)
@@ -84,7 +84,7 @@ def learned_policy(robots: int, seed: int, scale: str) -> Policy:
 def evaluate_learning(case: Case, seed: int, scale: str) -> Numbers:
     """Train the robots of a case, and let as many as it says cross the maps of a run."""
     policy = learned_policy(int(case["robots in training"]), seed, scale)
-    return drive_team(policy, int(case["robots"]), seed, scale)
+    return run_team(policy, int(case["robots"]), seed, scale)
 
 
 ABOUT = {

@@ -52,7 +52,7 @@ class Experience:
 
 
 class Agent:
-    """S networks that drive and do not learn. The methods are subclasses, which do.
+    """S networks that act and do not learn. The methods are subclasses, which do.
 
     The networks' outputs, between 0 and 1, are the Q-values.
 

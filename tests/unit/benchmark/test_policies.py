@@ -27,7 +27,7 @@ def test_every_named_method_drives():
         assert sum(result["outcomes"].values()) == 3
 
 
-def test_a_drive_is_navigate():
+def test_an_episode_is_navigate():
     result = evaluate(
         "freer-side", obstacles=20, moving=0, speed=2.0, worlds=50, seed=7
     )
@@ -38,7 +38,7 @@ def test_a_drive_is_navigate():
 
 
 @pytest.mark.parametrize("direction", ["sector", "exact"])
-def test_a_drive_takes_and_names_the_reflex(direction):
+def test_an_episode_takes_and_names_the_reflex(direction):
     done = run(
         "navigate", "--method", "freer-side", "--obstacles", "20", "--seed", "7", "--json", "-",
         *(["--reflex", direction] if direction == "exact" else []),

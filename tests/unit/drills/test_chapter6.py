@@ -370,7 +370,7 @@ def test_cells_that_a_unit_sees_by_the_gradient_of_a_unit() -> None:
         assert question.asked.answer == pytest.approx(seen * width)
 
 
-def test_price_of_randomising_by_counting_a_thousand_drives() -> None:
+def test_price_of_randomising_by_counting_a_thousand_episodes() -> None:
     for question in drawn("price-of-randomising"):
         plain, plain_noisy, randomised, noisy = (
             round(10 * n) for n in numbers(question.text)[:4]

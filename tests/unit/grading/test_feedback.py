@@ -304,7 +304,7 @@ def test_the_chosen_bin_depends_on_the_cost(choice):
     [(0, "collisions: 100", "collide"), (2, "out of time: 100", "drive on")],
     ids=["straight on", "round and round"],
 )
-def test_an_open_task_says_how_drives_ended_and_what_that_suggests(turn, end, hint):
+def test_an_open_task_says_how_episodes_ended_and_what_that_suggests(turn, end, hint):
     def escape(ranges, bearing, distance, memory):
         return np.full(len(ranges), turn), memory
 

@@ -108,7 +108,7 @@ def test_no_reward_is_neither_good_nor_bad():
     assert scale_to_unit_interval(np.zeros(3)).tolist() == [0.5, 0.5, 0.5]
 
 
-def test_after_is_the_next_decision_of_the_same_drive():
+def test_after_is_the_next_decision_of_the_same_episode():
     steps = Decisions(
         np.zeros((4, 1)),
         np.zeros(4, int),

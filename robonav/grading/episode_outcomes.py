@@ -1,4 +1,4 @@
-"""How the drives of an open task ended, and what that suggests to look at."""
+"""How the episodes of an open task ended, and what that suggests to look at."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from .session import Answer
 def require_arrivals(
     answer: Answer, outcomes: NDArray, least: int, *, collided: str, late: str
 ) -> None:
-    """Require that many drives arrive. Otherwise the feedback says how the others ended, and gives the hint for that.
+    """Require that many robots arrive. Otherwise the feedback says how the others ended, and gives the hint for that.
 
     Parameters
     ----------
     answer : Answer
-        The student's function, which was asked in these drives.
+        The student's function, which was asked in these episodes.
     outcomes : (N,) array
-        How each drive ended, in the words of :func:`robonav.robot.navigate`.
+        How each episode ended, in the words of :func:`robonav.robot.navigate`.
     least : int
         How many must arrive.
     collided, late : str
