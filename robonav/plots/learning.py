@@ -99,10 +99,10 @@ def plot_runs(
     axes.legend()
 
 
-def draw_walks(
+def draw_trajectories(
     axes: Axes,
     shape: tuple[int, int],
-    walks: Mapping[str, ArrayLike],
+    trajectories: Mapping[str, ArrayLike],
     *,
     forbidden: Sequence[int] = (),
     start: int | None = None,
@@ -116,7 +116,7 @@ def draw_walks(
         The axes to draw on.
     shape : (int, int)
         The numbers of rows and columns.
-    walks : mapping of str to array of int
+    trajectories : mapping of str to array of int
         The numbers of the cells on each path, by name.
     forbidden : sequence of int
         Cells to mark, such as those of the cliff.
@@ -127,7 +127,7 @@ def draw_walks(
     --------
     >>> from matplotlib.figure import Figure
     >>> axes = Figure().add_subplot()
-    >>> draw_walks(axes, (2, 3), {"SARSA": [3, 0, 1, 2, 5]}, forbidden=[4], start=3, goal=5)
+    >>> draw_trajectories(axes, (2, 3), {"SARSA": [3, 0, 1, 2, 5]}, forbidden=[4], start=3, goal=5)
     >>> [text.get_text() for text in axes.texts]
     ['S', 'G']
     """
@@ -145,10 +145,10 @@ def draw_walks(
                 linewidth=0.5,
             )
         )
-    for place, (name, cells) in enumerate(walks.items()):
+    for place, (name, cells) in enumerate(trajectories.items()):
         down, across = np.divmod(np.asarray(cells), columns)
-        # walks that share cells lie side by side
-        aside = 0.5 + 0.1 * (place - (len(walks) - 1) / 2)
+        # trajectories that share cells lie side by side
+        aside = 0.5 + 0.1 * (place - (len(trajectories) - 1) / 2)
         axes.plot(
             across + aside,
             down + aside,
@@ -175,7 +175,7 @@ def draw_walks(
     )
     axes.grid(False)
     axes.spines[:].set_visible(False)
-    if walks:
+    if trajectories:
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
 
 

@@ -43,7 +43,7 @@ export function gridPicture({ layout, name, mark = () => {}, write = short }) {
   const element = svg("svg", { viewBox: `-2 -2 ${width + 4} ${height + 4}`, width: width + 4, height: height + 4, role: "img", class: "grid" });
   const base = element.appendChild(svg("g", {}));
   base.append(svg("rect", { width, height, fill: PALETTE.OBSTACLE }));
-  const path = element.appendChild(svg("path", { fill: "none", stroke: PALETTE.ORANGE, "stroke-width": 4, "stroke-linejoin": "round", class: "walk still" }));
+  const path = element.appendChild(svg("path", { fill: "none", stroke: PALETTE.ORANGE, "stroke-width": 4, "stroke-linejoin": "round", class: "trajectory still" }));
   const marks = element.appendChild(svg("g", { class: "marks" })); // over the path, which must not hide a number
   const cells = layout.cells.map((place, state) => {
     const [row, column] = place;
@@ -72,7 +72,7 @@ export function gridPicture({ layout, name, mark = () => {}, write = short }) {
   });
   const chosen = element.appendChild(svg("rect", { width: CELL - 4, height: CELL - 4, fill: "none", stroke: PALETTE.VERMILION, "stroke-width": 4, class: "still" }));
 
-  const show = ({ values, policy, said, walk }, strongest, marked) => {
+  const show = ({ values, policy, said, trajectory }, strongest, marked) => {
     cells.forEach(({ box, arrow, text, fixed }, state) => {
       box.setAttribute("fill", fixed ? PALE : colourOf(values[state] / strongest));
       if (fixed) return;
@@ -80,7 +80,7 @@ export function gridPicture({ layout, name, mark = () => {}, write = short }) {
       arrow.setAttribute("transform", `translate(${x} ${y - 9}) rotate(${90 * policy[state]})`);
       text.textContent = write(values[state]);
     });
-    path.setAttribute("d", walk.map((state, i) => `${i ? "L" : "M"}${middle(layout.cells[state]).join(" ")}`).join(""));
+    path.setAttribute("d", trajectory.map((state, i) => `${i ? "L" : "M"}${middle(layout.cells[state]).join(" ")}`).join(""));
     const [row, column] = layout.cells[marked] ?? [0, 0];
     set(chosen, { x: column * CELL + 2, y: row * CELL + 2, visibility: marked in layout.cells ? "visible" : "hidden" });
     element.setAttribute("aria-label", `${name}: ${said}`);

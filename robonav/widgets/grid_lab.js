@@ -9,7 +9,7 @@ export function framesOf(run, states) {
     at: (frame) => {
       const f = Math.min(frame, last);
       const part = (array) => array.subarray(f * states, (f + 1) * states);
-      return { values: part(values), policy: part(policies), said: run.said[f], walk: run.walks[f] ?? [] };
+      return { values: part(values), policy: part(policies), said: run.said[f], trajectory: run.trajectories[f] ?? [] };
     },
   };
 }

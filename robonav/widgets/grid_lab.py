@@ -47,14 +47,14 @@ class Replay:
         The actions of the states.
     said : sequence of str
         A few words on each frame.
-    walks : sequence of sequence of int
+    trajectories : sequence of sequence of int
         The states visited in each frame, drawn as a line; empty if there are none.
     """
 
     values: NDArray[np.float64]
     policies: NDArray[np.intp]
     said: Sequence[str]
-    walks: Sequence[Sequence[int]] = ()
+    trajectories: Sequence[Sequence[int]] = ()
 
 
 def replay(
@@ -64,7 +64,7 @@ def replay(
     *,
     best: ArrayLike,
     steps: Sequence[str],
-    walks: Sequence[Sequence[int]] = (),
+    trajectories: Sequence[Sequence[int]] = (),
 ) -> Replay:
     """Make the frames of a recorded history, each compared with the optimal values.
 
@@ -78,7 +78,7 @@ def replay(
         The optimal values.
     steps : sequence of str
         The name of each frame, such as "sweep 3".
-    walks : sequence of sequence of int
+    trajectories : sequence of sequence of int
         The states visited in each frame, drawn as a line; empty if there are none.
 
     Returns
@@ -88,7 +88,7 @@ def replay(
     Raises
     ------
     ValueError
-        If the numbers of values, policies, walks and steps differ.
+        If the numbers of values, policies, trajectories and steps differ.
 
     Examples
     --------
@@ -103,16 +103,16 @@ def replay(
     """
     held = check_array("values", values, shape=(len(steps), mdp.n_states))
     chosen = check_array("policies", policies, shape=held.shape, dtype=np.intp)
-    if walks and len(walks) != len(steps):
+    if trajectories and len(trajectories) != len(steps):
         raise ValueError(
-            f"walks must be as many as steps, {len(steps)}, got {len(walks)}"
+            f"trajectories must be as many as steps, {len(steps)}, got {len(trajectories)}"
         )
     compared = zip(steps, *suboptimality(mdp, held, chosen, best=best), strict=True)
     return Replay(
         held,
         chosen,
         [f"{step}: {_judged(off, lost)}" for step, off, lost in compared],
-        walks,
+        trajectories,
     )
 
 
@@ -344,7 +344,9 @@ def _run(replays: Mapping[str, Replay]) -> list[dict[str, Any]]:
             "values": packed(shown.values, np.float32),
             "policies": packed(shown.policies, np.uint8),
             "said": list(shown.said),
-            "walks": [list(map(int, walk)) for walk in shown.walks],
+            "trajectories": [
+                list(map(int, trajectory)) for trajectory in shown.trajectories
+            ],
         }
         for name, shown in replays.items()
     ]

@@ -191,7 +191,7 @@ def test_the_best_with_time_short_is_pythons(visit, site):
     assert arrows == plan.policy[0][~grid.terminal].tolist()
 
 
-def test_learners_and_their_walks_are_pythons(visit, site):
+def test_learners_and_their_trajectories_are_pythons(visit, site):
     visit.leave_formulas()
     visit.open(f"{site.as_uri()}/book/model-free-learning.html")
     lab = visit.page.locator(".grid-lab")
@@ -221,14 +221,15 @@ def test_learners_and_their_walks_are_pythons(visit, site):
         q = learned.history[50][~cliff.terminal]
         np.testing.assert_allclose(values, q.max(axis=1), atol=0.051)
         assert arrows == q.argmax(axis=1).tolist()
-        walk = (
+        trajectory = (
             lab.locator("figure")
             .nth(which)
             .locator("svg path[stroke='#E69F00']")
             .get_attribute("d")
         )
         places = [
-            tuple(map(float, place.split())) for place in re.split("[ML]", walk)[1:]
+            tuple(map(float, place.split()))
+            for place in re.split("[ML]", trajectory)[1:]
         ]
         assert places == [
             (64 * (c + 0.5), 64 * (r + 0.5))

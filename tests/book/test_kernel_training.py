@@ -371,7 +371,7 @@ def search_is_shown(lab: Locator, made: Any) -> None:
     assert number_after(lab, "the path is") == pytest.approx(coarse.length, abs=0.06)
 
 
-def walks_are_shown(lab: Locator, found: Any) -> None:
+def samples_are_shown(lab: Locator, found: Any) -> None:
     theta = lab.get_by_text("θ, per step to the right").locator("output")
     shown = float(theta.inner_text().replace("−", "-"))
     assert shown == pytest.approx(found.weights[0] / 20, abs=0.026)
@@ -395,7 +395,7 @@ EXPLORED: dict[str, tuple[dict[str, str], str, Callable[[Locator, Any], None]]] 
         r"After 1 more policy the distance is [\d.]+\. Under the expert's own reward",
         mixture_is_shown,
     ),
-    "walk_features": (
+    "trajectory_features": (
         {"demonstrations (0: exact expectations)": "End"},
         r"The weights of the reward are -?[\d.]+ for grass, .* for target\. The learner's likeliest",
         weights_are_shown,
@@ -447,7 +447,7 @@ EXPLORED: dict[str, tuple[dict[str, str], str, Callable[[Locator, Any], None]]] 
     "weights_of_samples": (
         {"a step goes to the right": "ArrowRight", "random walks": "End"},
         r"θ is [\d.]+ per step to the right\. Without slack it tends to 1\.19 as ",
-        walks_are_shown,
+        samples_are_shown,
     ),
     "accuracy_or_balance": (
         {"the policy is kept by": "balanced accuracy", "iterations": "Home"},

@@ -63,7 +63,7 @@ def _close_cells(kinds, shapes, centres, size, spare, closed):
 
 @compiled
 def reachable(kinds, shapes, centres, size, x0, y0, x1, y1, spare):
-    """Whether a walk on a grid of whole metres, ``spare`` clear of everything, joins two points (flood fill).
+    """Whether a path on a grid of whole metres, ``spare`` clear of everything, joins two points (flood fill).
 
     Depth first, steps towards the target first: the answer is that of a full flood, mostly after a few hundred cells.
     """

@@ -36,7 +36,7 @@ export default explorable({
     stage.append(h("figure", {}, grid.element, h("p", { class: "told" }, "Touch a cell to back it up.")));
     return ({ values, backups, marked, last }) => {
       const policy = greedy(model, given.discount, values, values.map(() => 0));
-      grid.show({ values, policy, said: `values after ${backups} backups`, walk: [] }, 1, marked);
+      grid.show({ values, policy, said: `values after ${backups} backups`, trajectory: [] }, 1, marked);
       const off = Math.max(...given.best.map((value, s) => Math.abs(value - values[s])));
       return [
         `Backups of a cell: ${backups}. Value of the start S: ${number(values[given.marked])}.`,

@@ -146,14 +146,14 @@ def five_rooms() -> gym.Env[Any, Any]:
     return gym.make("FrozenLake-v1", desc=["HFFSFFG"], is_slippery=False)
 
 
-def page_walks(walks: Iterable[Iterable[int]]) -> str:
-    """Pack walks for the page, as the numbers of the states passed."""
-    return " ".join("".join(map(str, walk)) for walk in walks)
+def page_episodes(episodes: Iterable[Iterable[int]]) -> str:
+    """Pack episodes for the page, as the numbers of the states passed."""
+    return " ".join("".join(map(str, episode)) for episode in episodes)
 
 
 @asks(
     "How large should the learning rate be?",
-    "TD(0) learns from the same walks with different learning rates. "
+    "TD(0) learns from the same episodes with different learning rates. "
     "Is the learning rate with the smallest error after 10 episodes also the best one after 100?",
     guesses=[
         "yes, the same one",
@@ -162,18 +162,18 @@ def page_walks(walks: Iterable[Iterable[int]]) -> str:
     ],
     right="no, later a smaller one is better",
     because="At first the initial values are wrong, and a large learning rate forgets them sooner; "
-    "later the noise of the last walks matters, and a small one averages it out.",
+    "later the noise of the last episodes matters, and a small one averages it out.",
 )
 def td_step_size() -> dict[str, Any]:
-    """Walks through the five rooms, the true values, and the learning rate that the page begins with."""
+    """Episodes in the five rooms, the true values, and the learning rate that the page begins with."""
     rooms = five_rooms()
-    walks = [
-        page_walks(
+    episodes = [
+        page_episodes(
             episode.states for episode in mdp.rollouts(rooms, COIN, EPISODES, seed=seed)
         )
         for seed in range(RUNS)
     ]
-    return {"walks": walks, "truth": TRUTH.tolist(), "prize": 6, "rate": 0.1}
+    return {"episodes": episodes, "truth": TRUTH.tolist(), "prize": 6, "rate": 0.1}
 
 
 CLIFF = """
@@ -209,16 +209,16 @@ def cliff() -> mdp.GridWorld:
     files=("random_numbers", "grid"),
 )
 def cliff_exploration() -> dict[str, Any]:
-    """The cliff, and for each amount of exploring how far from its edge the best walk is, and what it expects."""
+    """The cliff, and for each amount of exploring how far from its edge the best trajectory is, and what it expects."""
     grid = cliff()
     model, begin = grid.mdp(1.0), int(grid.start.argmax())
     best = []
     for epsilon in np.linspace(0, 0.5, 11):
         q = best_while_exploring(model, epsilon)
-        walk = mdp.rollouts(
+        greedy = mdp.rollouts(
             grid.environment(), q.argmax(axis=1), 1, max_steps=30, seed=0
         )[0]
-        rows = 2 - grid.cells[walk.states, 0].min()
+        rows = 2 - grid.cells[greedy.states, 0].min()
         best.append(
             {
                 "rows": int(rows),

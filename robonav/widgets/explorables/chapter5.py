@@ -107,19 +107,19 @@ def inconsistent_expert() -> dict[str, Any]:
 
 
 @asks(
-    "Two walks, four features",
+    "Two trajectories, four features",
     "A step costs 1 in mud, 0.3 on grass and 0.05 on the road, and the target gives 3. "
-    "With a discount of 0.9 the long walk on the road has a larger return than the short one "
+    "With a discount of 0.9 the long trajectory on the road has a larger return than the short one "
     "through the mud. "
     "Does it still with a discount of 0.5?",
     guesses=["yes", "no"],
     right="yes",
-    because="The mud comes early on the short walk, so a small discount gives it more weight, while "
+    because="The mud comes early on the short trajectory, so a small discount gives it more weight, while "
     "the target is far away on both.",
     files=("grid",),
 )
-def walk_features() -> dict[str, Any]:
-    """Two walks from the start to the target of the terrain, as kinds of the cells stepped onto."""
+def trajectory_features() -> dict[str, Any]:
+    """Two trajectories from the start to the target of the terrain, as kinds of the cells stepped onto."""
     grid, _ = nirl.terrain()
     place = {tuple(cell): state for state, cell in enumerate(grid.cells.tolist())}
     road = [
@@ -137,20 +137,22 @@ def walk_features() -> dict[str, Any]:
     ]
     straight = [(3, column) for column in range(7)]
     symbols = {".": 0, "S": 0, "m": 1, "r": 2, "T": 3}
-    walks = [
+    trajectories = [
         {
             "name": name,
-            "states": [place[cell] for cell in walk],
-            "kinds": [symbols[grid.rows[row][column]] for row, column in walk[1:]],
+            "states": [place[cell] for cell in trajectory],
+            "kinds": [
+                symbols[grid.rows[row][column]] for row, column in trajectory[1:]
+            ],
         }
-        for name, walk in (
+        for name, trajectory in (
             ("straight through the mud", straight),
             ("round on the road", road),
         )
     ]
     return {
         "layout": page_grid(grid),
-        "walks": walks,
+        "trajectories": trajectories,
         "kinds": list(nirl.TERRAIN_KINDS),
         "weights": nirl.TRUE_WEIGHTS.tolist(),
         "discount": 0.9,

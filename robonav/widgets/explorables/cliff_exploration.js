@@ -47,10 +47,10 @@ export function bestActions({ moves }, q) {
 }
 
 /** Where the best actions lead from the start. */
-export function greedyWalk({ moves, ends, begin }, q) {
-  const [walk, best] = [[begin], bestActions({ moves }, q)];
-  while (!ends[walk.at(-1)] && walk.length < 30) walk.push(moves[walk.at(-1)][best[walk.at(-1)]]);
-  return walk;
+export function greedyTrajectory({ moves, ends, begin }, q) {
+  const [trajectory, best] = [[begin], bestActions({ moves }, q)];
+  while (!ends[trajectory.at(-1)] && trajectory.length < 30) trajectory.push(moves[trajectory.at(-1)][best[trajectory.at(-1)]]);
+  return trajectory;
 }
 
 export default explorable({
@@ -66,20 +66,20 @@ export default explorable({
     const captions = methods.map(() => h("p", { class: "told" }));
     stage.append(h("div", { class: "row" }, ...methods.map((name, k) => h("figure", { class: "half" }, h("figcaption", {}, name), grids[k].element, captions[k]))));
     const top = given.layout.rows.length - 2; // rows above the cliff's edge
-    const away = (walk) => top - Math.min(...walk.map((s) => given.layout.cells[s][0]));
+    const away = (trajectory) => top - Math.min(...trajectory.map((s) => given.layout.cells[s][0]));
     const said = (rows) => ["along the edge", "one row away from the edge", "along the far wall"][rows] ?? `${rows} rows away`;
     return ({ epsilon, episodes, seed }) => {
-      const walks = methods.map((method, k) => {
+      const trajectories = methods.map((method, k) => {
         const q = learnTogether(given, method, { epsilon, episodes, seed });
-        const walk = greedyWalk(given, q);
-        grids[k].show({ values: q.map((row) => Math.max(...row)), policy: bestActions(given, q), said: "learned values", walk }, 20, -1);
-        const arrived = given.layout.rows[given.layout.cells[walk.at(-1)][0]][given.layout.cells[walk.at(-1)][1]] === "G";
-        captions[k].textContent = !arrived ? "Without exploring, this path does not reach G." : `Without exploring, this path takes ${walk.length - 1} steps.`;
-        return arrived ? said(away(walk)) : null;
+        const trajectory = greedyTrajectory(given, q);
+        grids[k].show({ values: q.map((row) => Math.max(...row)), policy: bestActions(given, q), said: "learned values", trajectory }, 20, -1);
+        const arrived = given.layout.rows[given.layout.cells[trajectory.at(-1)][0]][given.layout.cells[trajectory.at(-1)][1]] === "G";
+        captions[k].textContent = !arrived ? "Without exploring, this path does not reach G." : `Without exploring, this path takes ${trajectory.length - 1} steps.`;
+        return arrived ? said(away(trajectory)) : null;
       });
       const best = given.best[Math.round(epsilon / 0.05)];
       return [
-        ...methods.map((name, k) => walks[k] ? `${name}'s path leads ${walks[k]}.` : `${name}'s path does not lead to G yet.`),
+        ...methods.map((name, k) => trajectories[k] ? `${name}'s path leads ${trajectories[k]}.` : `${name}'s path does not lead to G yet.`),
         `Values and paths are the mean of ${ROBOTS} robots after ${episodes} episodes each.`, "",
         `For a robot that explores with ε = ${epsilon.toFixed(2)} the best path leads ${said(best.rows)}, with an expected return of ${number(best.value, 1)}.`,
       ].join("\n");

@@ -37,7 +37,7 @@ export default explorable({
     const grid = gridPicture({ layout: given.layout, name: "values and policy" });
     stage.append(h("figure", {}, grid.element));
     return ({ policy, values, sweeps, full, improvements }) => {
-      grid.show({ values, policy, said: "values and policy", walk: [] }, 1, -1);
+      grid.show({ values, policy, said: "values and policy", trajectory: [] }, 1, -1);
       const unfit = misfit(model, given.discount, values, policy);
       const wrong = wrongArrows(given, policy);
       return [

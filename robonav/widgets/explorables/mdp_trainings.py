@@ -23,8 +23,8 @@ from .chapter2 import (
     TRUTH,
     five_rooms,
     grid_to_touch,
+    page_episodes,
     page_vectors,
-    page_walks,
     plans_by_steps,
     turn_arrows,
 )
@@ -183,9 +183,9 @@ class _RunInRooms:
         """The root mean squared error over the rooms."""
         return float(np.sqrt(np.mean((np.array(self._values)[ROOMS] - TRUTH) ** 2)))
 
-    def walks(self, count: int) -> str:
-        """The first walks, for the page."""
-        return page_walks(self._log.visited_states[:count])
+    def episodes(self, count: int) -> str:
+        """The first episodes, for the page."""
+        return page_episodes(self._log.visited_states[:count])
 
 
 def _prediction(name: str, rate: float) -> Callable[..., None]:
@@ -216,7 +216,7 @@ def _prediction(name: str, rate: float) -> Callable[..., None]:
     },
 )
 def values_of_rooms(settings: dict[str, Any], report: Report) -> Trained:
-    """Runs in the five rooms; the page gets their first walks and the learning rate."""
+    """Runs in the five rooms; the page gets their first episodes and the learning rate."""
     method, rate = settings["method"], settings["learning_rate"]
     algorithm = _prediction(method, rate)
     seeds = range(settings["seed"], settings["seed"] + RUNS)
@@ -237,7 +237,7 @@ def values_of_rooms(settings: dict[str, Any], report: Report) -> Trained:
         [run.result for run in runs],
         f"{said}: after {settings['episodes']} episodes the error is {errors[settings['episodes']]:.3f}, mean of "
         f"{RUNS} runs. The lowest point of the curve is {errors[lowest]:.3f}, after {lowest} episodes.",
-        {"walks": [run.walks(EPISODES) for run in runs], "rate": rate},
+        {"episodes": [run.episodes(EPISODES) for run in runs], "rate": rate},
     )
 
 

@@ -147,7 +147,7 @@ def apprentice(settings: dict[str, Any], report: Report) -> Trained:
 
 
 @trains(
-    "walk_features",
+    "trajectory_features",
     "The reward of maximum causal entropy",
     unit="iteration",
     length="iterations",
@@ -389,7 +389,7 @@ THETAS = (-1.0, 3.0)
         ),
     },
 )
-def weighted_walks(settings: dict[str, Any], report: Report) -> Trained:
+def weighted_samples(settings: dict[str, Any], report: Report) -> Trained:
     """Relative entropy with a growing number of walks; the page gets the walks, the expert's mean and theta."""
     right, total = settings["right"], settings["samples"]
     rng = np.random.default_rng(settings["seed"])

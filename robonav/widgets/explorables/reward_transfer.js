@@ -23,7 +23,7 @@ export default explorable({
     return ({ target, learner }) => {
       const terrain = terrains[target];
       const { policy, values } = terrain[learner];
-      pictures[target].show({ values, policy, said: learner, walk: [] }, 2.5, terrain.start);
+      pictures[target].show({ values, policy, said: learner, trajectory: [] }, 2.5, terrain.start);
       clear[target]();
       holder.replaceChildren(pictures[target].element);
       return [

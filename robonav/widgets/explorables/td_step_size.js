@@ -1,13 +1,13 @@
-// TD(0) on the walk through five rooms: a large learning rate forgets the start sooner, a small one averages out the noise.
+// TD(0) on the random walk through five rooms: a large learning rate forgets the start sooner, a small one averages out the noise.
 
-/** TD(0) over given walks, without a discount: the values after each walk, the start first. @param {number[][]} walks rooms passed, ends included */
-export function tdHistory(walks, alpha, prize, states) {
+/** TD(0) over given episodes, without a discount: the values after each episode, the start first. @param {number[][]} episodes rooms passed, ends included */
+export function tdHistory(episodes, alpha, prize, states) {
   const values = new Float64Array(states).fill(0.5);
   values[0] = values[states - 1] = 0;
   const history = [values.slice()];
-  for (const walk of walks) {
-    for (let t = 0; t + 1 < walk.length; t += 1) {
-      const [s, next] = [walk[t], walk[t + 1]];
+  for (const episode of episodes) {
+    for (let t = 0; t + 1 < episode.length; t += 1) {
+      const [s, next] = [episode[t], episode[t + 1]];
       values[s] += alpha * ((next === prize ? 1 : 0) + values[next] - values[s]);
     }
     history.push(values.slice());
@@ -15,14 +15,14 @@ export function tdHistory(walks, alpha, prize, states) {
   return history;
 }
 
-/** Every-visit Monte Carlo over given walks: means of the returns; 0.5 where none is known yet. */
-export function monteCarloHistory(walks, prize, states) {
+/** Every-visit Monte Carlo over given episodes: means of the returns; 0.5 where none is known yet. */
+export function monteCarloHistory(episodes, prize, states) {
   const [sums, counts] = [new Float64Array(states), new Float64Array(states)];
   const now = () => sums.map((sum, s) => (counts[s] ? sum / counts[s] : 0.5));
   const history = [now()];
-  for (const walk of walks) {
-    walk.slice(0, -1).forEach((s) => {
-      sums[s] += walk.at(-1) === prize ? 1 : 0;
+  for (const episode of episodes) {
+    episode.slice(0, -1).forEach((s) => {
+      sums[s] += episode.at(-1) === prize ? 1 : 0;
       counts[s] += 1;
     });
     history.push(now());
@@ -43,16 +43,16 @@ export default explorable({
   }),
   draw({ given, stage }) {
     const { truth, prize } = given;
-    const runs = given.walks.map((walks) => walks.split(" ").map((walk) => [...walk].map(Number)));
+    const runs = given.episodes.map((episodes) => episodes.split(" ").map((episode) => [...episode].map(Number)));
     const states = truth.length + 2;
-    const monte = runs.map((walks) => monteCarloHistory(walks, prize, states));
+    const monte = runs.map((episodes) => monteCarloHistory(episodes, prize, states));
     const meanError = (histories) => histories[0].map((_, k) => histories.reduce((sum, history) => sum + errorOf(history[k], truth), 0) / histories.length);
     const baseline = meanError(monte);
     const rooms = plot({ x: [0.6, 5.4], y: [0, 1], xLabel: "room", yLabel: "value", height: 200, xTicks: [1, 2, 3, 4, 5] });
     const errors = plot({ x: [0, EPISODES], y: [0, 0.3], xLabel: "episodes", yLabel: "error, mean of 20 runs", height: 200 });
     stage.append(h("figure", {}, rooms.element, errors.element, legend([PALETTE.GREY, "truth"], [PALETTE.BLUE, "TD(0), one run"], [PALETTE.GREEN, "TD(0), error"], [PALETTE.ORANGE, "Monte Carlo"])));
     return ({ alpha, episode, run }) => {
-      const histories = runs.map((walks) => tdHistory(walks, alpha, prize, states));
+      const histories = runs.map((episodes) => tdHistory(episodes, alpha, prize, states));
       const error = meanError(histories);
       const inside = (values) => truth.map((_, i) => [i + 1, values[i + 1]]);
       const dots = (values, fill) => inside(values).map(([x, y]) => svg("circle", { cx: rooms.X(x), cy: rooms.Y(y), r: 5, fill }));

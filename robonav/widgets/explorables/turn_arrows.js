@@ -15,7 +15,7 @@ export default explorable({
     return ({ policy, marked }) => {
       const values = valuesOf(model, given.discount, policy);
       const differs = (sign) => values.filter((value, s) => sign * (value - before[s]) > 5e-4).length;
-      grid.show({ values, policy, said: "values of the policy drawn", walk: [] }, 1, marked);
+      grid.show({ values, policy, said: "values of the policy drawn", trajectory: [] }, 1, marked);
       const q = actionValues(model, given.discount, values, marked);
       const lines = given.layout.ends.includes(marked)
         ? ["The episode ends here."]

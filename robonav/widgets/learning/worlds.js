@@ -57,7 +57,7 @@ function closedCells(obstacles, size) {
   return { closed, cells };
 }
 
-/** Whether a walk on whole metres, SPARE clear of everything, joins two points (depth-first flood fill). */
+/** Whether a path on whole metres, SPARE clear of everything, joins two points (depth-first flood fill). */
 export function reachable(obstacles, size, [x0, y0], [x1, y1]) {
   const { closed, cells } = closedCells(obstacles, size);
   const [first, goalI, goalJ] = [Math.floor(x0 + 0.5) * cells + Math.floor(y0 + 0.5), Math.floor(x1 + 0.5), Math.floor(y1 + 0.5)];

@@ -258,14 +258,14 @@ def contraction(shown: Shown) -> None:
     differences.has_curve(GREEN, np.column_stack([sweeps, gaps]))
 
 
-class Walks:
-    """An environment that walks through the rooms as it was told, whatever the action."""
+class Episodes:
+    """An environment that goes through the rooms as it was told, whatever the action."""
 
-    def __init__(self, walks: str) -> None:
-        self.walks = iter(walks.split())
+    def __init__(self, episodes: str) -> None:
+        self.episodes = iter(episodes.split())
 
     def reset(self) -> tuple[int, dict]:
-        self.rooms = map(int, next(self.walks))
+        self.rooms = map(int, next(self.episodes))
         return next(self.rooms), {}
 
     def step(self, action: int) -> tuple[int, float, bool, bool, dict]:
@@ -273,11 +273,11 @@ class Walks:
         return room, float(room == 6), room in (0, 6), False, {}
 
 
-def values_after_each_walk(
-    learn: Callable[..., None], walks: str, first: float
+def values_after_each_episode(
+    learn: Callable[..., None], episodes: str, first: float
 ) -> Values:
-    """The values (101, 7) that a method has before and after each of 100 walks, which it learns without a discount."""
-    env = Walks(walks)
+    """The values (101, 7) that a method has before and after each of 100 episodes, without a discount."""
+    env = Episodes(episodes)
     values, visits = [0.0, *[first] * 5, 0.0], [0] * 7
     history = [values.copy()]
     for _ in range(100):
@@ -287,34 +287,34 @@ def values_after_each_walk(
 
 
 def errors(histories: list[Values]) -> Values:
-    """The error (101,) of the values of the five rooms after each walk, a mean over runs."""
+    """The error (101,) of the values of the five rooms after each episode, a mean over runs."""
     truth = np.arange(1, 6) / 6
     off = np.array(histories)[:, :, 1:6] - truth
     return np.sqrt((off**2).mean(axis=2)).mean(axis=0)
 
 
 @cache
-def by_td(walks: tuple[str, ...], alpha: float) -> list[Values]:
+def by_td(episodes: tuple[str, ...], alpha: float) -> list[Values]:
     """What TD(0) learns in each run."""
     algorithm = partial(
         inspect.unwrap(mdp.td_prediction), learning_rate=lambda visits: alpha
     )
-    return [values_after_each_walk(algorithm, run, 0.5) for run in walks]
+    return [values_after_each_episode(algorithm, run, 0.5) for run in episodes]
 
 
 @cache
-def by_monte_carlo(walks: tuple[str, ...]) -> list[Values]:
+def by_monte_carlo(episodes: tuple[str, ...]) -> list[Values]:
     """What every-visit Monte Carlo learns in each run; 0.5 where it knows nothing yet."""
     algorithm = partial(inspect.unwrap(mdp.monte_carlo_prediction), visit="every")
-    return [values_after_each_walk(algorithm, run, 0.5) for run in walks]
+    return [values_after_each_episode(algorithm, run, 0.5) for run in episodes]
 
 
 @expects(slide("learning rate α", 0.2), slide("run in the first picture", 0.5))
 def td_step_size(shown: Shown) -> None:
     alpha, episode = shown.number("learning rate α"), int(shown.number("episodes"))
     run = int(shown.number("run in the first picture")) - 1
-    walks = tuple(shown.given["walks"])
-    td, monte_carlo = by_td(walks, alpha), by_monte_carlo(walks)
+    episodes = tuple(shown.given["episodes"])
+    td, monte_carlo = by_td(episodes, alpha), by_monte_carlo(episodes)
     error, baseline = errors(td), errors(monte_carlo)
     shown.says(
         f"After {episode} episode",
@@ -373,13 +373,13 @@ def best_moves(q: Values) -> Actions:
     return (1.0 * ties + (ties & leaves)).argmax(axis=1)
 
 
-def greedy_walk(q: Values) -> list[int]:
+def greedy_trajectory(q: Values) -> list[int]:
     """Where the best actions lead from the start of the cliff."""
     grid, best = cliff(), best_moves(q)
-    walk = [int(grid.start.argmax())]
-    while not grid.terminal[walk[-1]] and len(walk) < 30:
-        walk.append(int(grid.moves[walk[-1], best[walk[-1]]]))
-    return walk
+    trajectory = [int(grid.start.argmax())]
+    while not grid.terminal[trajectory[-1]] and len(trajectory) < 30:
+        trajectory.append(int(grid.moves[trajectory[-1], best[trajectory[-1]]]))
+    return trajectory
 
 
 ROWS_AWAY = (
@@ -389,9 +389,9 @@ ROWS_AWAY = (
 )
 
 
-def rows_away(walk: list[int]) -> str:
-    """How far a walk is from the edge of the cliff, in the page's words."""
-    return ROWS_AWAY[2 - cliff().cells[walk][:, 0].min()]
+def rows_away(trajectory: list[int]) -> str:
+    """How far a trajectory is from the edge of the cliff, in the page's words."""
+    return ROWS_AWAY[2 - cliff().cells[trajectory][:, 0].min()]
 
 
 @cache
@@ -415,7 +415,7 @@ def cliff_exploration(shown: Shown) -> None:
     value = (mdp.epsilon_greedy(best, epsilon) * best).sum(axis=1)[start]
     shown.says(
         f"the mean of 10 robots after {episodes} episodes each.",
-        f"that explores with ε = {epsilon} the best path leads {rows_away(greedy_walk(best))},"
+        f"that explores with ε = {epsilon} the best path leads {rows_away(greedy_trajectory(best))},"
         f" with an expected return of {value}.",
     )
     if episodes > 100:  # more would take Python too long
@@ -427,14 +427,17 @@ def cliff_exploration(shown: Shown) -> None:
         picture = grid_of(shown, number)
         assert picture.arrows() == {s: best_moves(q)[s] for s in inside}
         picture.has_values(q.max(axis=1)[inside])
-        walk = greedy_walk(q)
-        assert picture.walk() == walk
-        arrives = grid.rows[grid.cells[walk[-1], 0]][grid.cells[walk[-1], 1]] == "G"
+        trajectory = greedy_trajectory(q)
+        assert picture.trajectory() == trajectory
+        arrives = (
+            grid.rows[grid.cells[trajectory[-1], 0]][grid.cells[trajectory[-1], 1]]
+            == "G"
+        )
         shown.says(
-            f"this path takes {len(walk) - 1} steps."
+            f"this path takes {len(trajectory) - 1} steps."
             if arrives
             else "this path does not reach G.",
-            f"{method}'s path leads {rows_away(walk)}."
+            f"{method}'s path leads {rows_away(trajectory)}."
             if arrives
             else f"{method}'s path does not lead to G yet.",
         )

@@ -78,24 +78,24 @@ def inconsistent_expert(shown: Shown) -> None:
 @expects(
     slide("discount γ", 0.3), slide("reward of mud", 0.2), slide("reward of road", 0.4)
 )
-def walk_features(shown: Shown) -> None:
+def trajectory_features(shown: Shown) -> None:
     discount = shown.number("discount γ")
     weights = [shown.number(f"reward of {kind}") for kind in nirl.TERRAIN_KINDS]
-    walks, values, sums = shown.given["walks"], [], []
-    for walk in walks:
-        features = np.eye(4)[walk["kinds"]]
-        one_walk = np.zeros(len(features), dtype=int)
-        mu = nirl.discounted_feature_sums(features, one_walk, discount)[0]
+    trajectories, values, sums = shown.given["trajectories"], [], []
+    for trajectory in trajectories:
+        features = np.eye(4)[trajectory["kinds"]]
+        one_trajectory = np.zeros(len(features), dtype=int)
+        mu = nirl.discounted_feature_sums(features, one_trajectory, discount)[0]
         sums.append(mu)
         values.append(nirl.value_of_expectations(weights, mu))
-        shown.says(f"{walk['name']}: μ = ({listed(mu)}), θ·μ = {values[-1]}")
+        shown.says(f"{trajectory['name']}: μ = ({listed(mu)}), θ·μ = {values[-1]}")
     shown.says(
         "Both are equally good."
         if abs(values[0] - values[1]) < 1e-9
-        else f"Better: {walks[int(np.argmax(values))]['name']}."
+        else f"Better: {trajectories[int(np.argmax(values))]['name']}."
     )
     for number, colour in enumerate((BLUE, ORANGE)):
-        assert grid_of(shown).walk(number) == walks[number]["states"]
+        assert grid_of(shown).trajectory(number) == trajectories[number]["states"]
         shown.picture(1).has_bars(colour, sums[number])
 
 

@@ -1,4 +1,4 @@
-"""A picture of a grid, read: its arrows, values, marked cell and walk."""
+"""A picture of a grid, read: its arrows, values, marked cell and trajectory."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ class Grid:
         (frame,) = self.picture.of("rect", stroke=VERMILION, visibility="visible")
         return self.at(float(frame["x"]), float(frame["y"]))
 
-    def walk(self, number: int = 0) -> list[int]:
-        """The cells of a walk."""
-        places = self.picture.of("path", **{"class": "walk still"})[number]["d"]
+    def trajectory(self, number: int = 0) -> list[int]:
+        """The cells of a trajectory."""
+        places = self.picture.of("path", **{"class": "trajectory still"})[number]["d"]
         numbers = list(map(float, re.findall(r"[0-9.]+", places)))
         return [self.at(x, y) for x, y in zip(numbers[::2], numbers[1::2], strict=True)]
 

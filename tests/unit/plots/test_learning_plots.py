@@ -1,4 +1,4 @@
-"""Runs with their band, walks on a grid, estimates beside the truth."""
+"""Runs with their band, trajectories on a grid, estimates beside the truth."""
 
 import matplotlib as mpl
 import numpy as np
@@ -9,7 +9,7 @@ from robonav.mdp import Tiles
 from robonav.plots.learning import (
     COLOURS,
     draw_tiles,
-    draw_walks,
+    draw_trajectories,
     plot_estimates,
     plot_runs,
 )
@@ -37,8 +37,8 @@ def test_a_window_averages_and_stands_at_its_end(axes):
     np.testing.assert_allclose(axes.lines[0].get_xydata(), [[20, 1], [30, 3], [40, 5]])
 
 
-def test_walks_pass_through_their_cells(axes):
-    draw_walks(
+def test_trajectories_pass_through_their_cells(axes):
+    draw_trajectories(
         axes,
         (2, 3),
         {"bold": [3, 0, 1, 2, 5], "safe": [3, 4, 5]},

@@ -141,7 +141,7 @@ def test_apprenticeship_on_the_ground(guess):
 
 @pytest.mark.slow
 def test_the_reward_of_maximum_entropy():
-    page = Page("walk_features")
+    page = Page("trajectory_features")
     ended = page.train(demonstrations=0, iterations=40, regularisation=0.1)
     (found,) = page.lab.trainings
     _, task = nirl.terrain()
@@ -244,7 +244,7 @@ def test_values_of_the_rooms_are_those_of_the_package(method):
     page = Page("td_step_size")
     given = page.train(method=method, learning_rate=0.15, seed=40)["given"]
     runs = page.lab.trainings
-    assert len(runs) == len(given["walks"]) == 20
+    assert len(runs) == len(given["episodes"]) == 20
     assert given["rate"] == 0.15
     for run, seed in ((runs[0], 40), (runs[19], 59)):
         alone = learned_alone(method, seed)
@@ -256,10 +256,10 @@ def test_values_of_the_rooms_are_those_of_the_package(method):
     histories = np.array([run.history for run in runs])[:, ::20, 1:6]
     errors = np.sqrt(((histories - np.arange(1, 6) / 6) ** 2).mean(axis=2)).mean(axis=0)
     np.testing.assert_allclose(page.points("error"), errors)
-    for run, walks in zip(runs, given["walks"], strict=True):
-        assert len(walks.split()) == 100
+    for run, episodes in zip(runs, given["episodes"], strict=True):
+        assert len(episodes.split()) == 100
         if method != "Monte Carlo, first visit":
-            passed = "".join(walk[:-1] for walk in walks.split())
+            passed = "".join(episode[:-1] for episode in episodes.split())
             assert [passed.count(str(room)) for room in range(7)] == run.visits.tolist()
 
 
@@ -342,7 +342,7 @@ def test_no_path_in_any_map_is_said(monkeypatch):
 
 
 @pytest.mark.parametrize("right", [0.5, 0.7, 0.85])
-def test_the_weight_of_the_walks_tends_to_the_exact_one(right):
+def test_the_weight_of_the_samples_tends_to_the_exact_one(right):
     page = Page("weights_of_samples")
     exact = np.log(0.8 / 0.2) - np.log(right / (1 - right))
     ended = page.train(right=right, samples=1000, demonstrations=100, slack=0.0)

@@ -214,36 +214,36 @@ def test_two_starts_approach_each_other(compute, discount, start):
 
 
 class Replay(gym.Env):
-    """An environment that walks as it was told, whatever the action."""
+    """An environment that goes as it was told, whatever the action."""
 
-    def __init__(self, walks):
+    def __init__(self, episodes):
         self.observation_space, self.action_space = Discrete(7), Discrete(1)
-        self.walks, self.walk = iter(walks), []
+        self.episodes, self.rooms = iter(episodes), []
 
     def reset(self, *, seed=None, options=None):
         super().reset(seed=seed)
-        self.walk = [int(room) for room in next(self.walks)]
-        return self.walk.pop(0), {}
+        self.rooms = [int(room) for room in next(self.episodes)]
+        return self.rooms.pop(0), {}
 
     def step(self, action):
-        room = self.walk.pop(0)
-        return room, float(room == 6), not self.walk, False, {}
+        room = self.rooms.pop(0)
+        return room, float(room == 6), not self.rooms, False, {}
 
 
-def test_values_from_walks(compute):
-    walks = explorable("td_step_size").data["given"]["walks"][3]
+def test_values_from_episodes(compute):
+    episodes = explorable("td_step_size").data["given"]["episodes"][3]
     body = """
-    const walks = given.walks[3].split(" ").map((walk) => [...walk].map(Number));
-    const histories = [page.tdHistory(walks, 0.13, 6, 7), page.monteCarloHistory(walks, 6, 7)];
+    const episodes = given.episodes[3].split(" ").map((episode) => [...episode].map(Number));
+    const histories = [page.tdHistory(episodes, 0.13, 6, 7), page.monteCarloHistory(episodes, 6, 7)];
     return histories.map((history) => history.map((values) => [...values]));"""
     td, means = compute("td_step_size", body)
     one = np.ones((7, 1))
     options = {"discount": 1.0, "record": True, "seed": 0}
     by_td = mdp.td_prediction(
-        Replay(walks.split()), one, 100, learning_rate=0.13, initial=0.5, **options
+        Replay(episodes.split()), one, 100, learning_rate=0.13, initial=0.5, **options
     )
     by_returns = mdp.monte_carlo_prediction(
-        Replay(walks.split()), one, 100, visit="every", **options
+        Replay(episodes.split()), one, 100, visit="every", **options
     )
     inside = slice(1, 6)
     np.testing.assert_allclose(
@@ -258,9 +258,9 @@ def test_values_from_walks(compute):
 
 def test_a_larger_step_is_best_early_and_a_smaller_one_late(compute):
     body = """
-    const runs = given.walks.map((walks) => walks.split(" ").map((walk) => [...walk].map(Number)));
-    const of = (walks, alpha, k) => page.errorOf(page.tdHistory(walks, alpha, 6, 7)[k], given.truth);
-    const error = (alpha, k) => runs.reduce((sum, walks) => sum + of(walks, alpha, k), 0);
+    const runs = given.episodes.map((episodes) => episodes.split(" ").map((episode) => [...episode].map(Number)));
+    const of = (episodes, alpha, k) => page.errorOf(page.tdHistory(episodes, alpha, 6, 7)[k], given.truth);
+    const error = (alpha, k) => runs.reduce((sum, episodes) => sum + of(episodes, alpha, k), 0);
     return [10, 100].map((k) => data.rates.map((alpha) => error(alpha, k)));"""
     rates = [0.02, 0.04, 0.1, 0.24, 0.4]
     early, late = compute("td_step_size", body, rates=rates)
@@ -293,9 +293,9 @@ def test_the_paths_beside_the_cliff_are_those_of_the_answer_for_every_seed(compu
     body = """
     const rows = (method, epsilon, seed) => {
       const q = page.learnTogether(given, method, { epsilon, episodes: 1000, seed });
-      const walk = page.greedyWalk(given, q);
-      if (!given.ends[walk.at(-1)]) return -1;
-      return 2 - Math.min(...walk.map((s) => given.layout.cells[s][0]));
+      const trajectory = page.greedyTrajectory(given, q);
+      if (!given.ends[trajectory.at(-1)]) return -1;
+      return 2 - Math.min(...trajectory.map((s) => given.layout.cells[s][0]));
     };
     const seeds = Array.from({ length: 25 }, (_, k) => k + 1);
     return ["Q-learning", "SARSA"].map((method) =>
@@ -627,14 +627,16 @@ def test_evidence_of_actions(compute, counts):
 
 
 @pytest.mark.parametrize("discount", [0.5, 0.9, 1.0])
-def test_walks_collect_discounted_features(compute, discount):
-    given = explorable("walk_features").data["given"]
-    for walk in given["walks"]:
+def test_trajectories_collect_discounted_features(compute, discount):
+    given = explorable("trajectory_features").data["given"]
+    for trajectory in given["trajectories"]:
         body = """
         const mu = page.collected(data.kinds, 4, data.discount);
         return { mu, value: page.returnOf(given.weights, mu) };"""
-        seen = compute("walk_features", body, kinds=walk["kinds"], discount=discount)
-        features = np.eye(4)[walk["kinds"]]
+        seen = compute(
+            "trajectory_features", body, kinds=trajectory["kinds"], discount=discount
+        )
+        features = np.eye(4)[trajectory["kinds"]]
         sums = nirl.discounted_feature_sums(features, [0] * len(features), discount)
         assert seen["mu"] == pytest.approx(sums[0], abs=1e-12)
         value = nirl.value_of_expectations(nirl.TRUE_WEIGHTS, sums[0])

@@ -52,8 +52,10 @@ def test_a_replay_of_another_length_is_refused(grid):
     best = np.zeros(grid.n_states)
     with pytest.raises(ValueError, match="values must have shape"):
         replay(model, *frames, best=best, steps=["one"])
-    with pytest.raises(ValueError, match="walks must be as many as steps, 2, got 1"):
-        replay(model, *frames, best=best, steps=["one", "two"], walks=[[0, 1]])
+    with pytest.raises(
+        ValueError, match="trajectories must be as many as steps, 2, got 1"
+    ):
+        replay(model, *frames, best=best, steps=["one", "two"], trajectories=[[0, 1]])
 
 
 def test_the_lab_holds_every_combination(grid):
@@ -197,29 +199,29 @@ def test_frames_reach_the_page_and_stay_at_the_end(node, grid):
     )
     body = """const { last, at } = page.framesOf(data, 10);
       return [last, [0, 2, last, last + 5].map((f) => { const a = at(f);
-        return [[...a.values], [...a.policy], a.said, a.walk]; })];"""
+        return [[...a.values], [...a.policy], a.said, a.trajectory]; })];"""
     last, frames = node(LAB, body, lab.data["runs"][0][0])
     assert last == len(shown.said) - 1
-    for place, (values, policy, said, walk) in zip(
+    for place, (values, policy, said, trajectory) in zip(
         [0, 2, last, last], frames, strict=True
     ):
         np.testing.assert_allclose(values, shown.values[place], atol=1e-6)
         assert policy == shown.policies[place].tolist()
         assert said == shown.said[place]
-        assert walk == []
+        assert trajectory == []
 
 
-def test_walks_reach_the_page(grid):
+def test_trajectories_reach_the_page(grid):
     frames = np.zeros((2, grid.n_states)), np.zeros((2, grid.n_states), dtype=int)
     shown = replay(
         grid.mdp(0.9),
         *frames,
         best=frames[0][0],
         steps=["a", "b"],
-        walks=[np.array([7, 3, 0]), np.array([7])],
+        trajectories=[np.array([7, 3, 0]), np.array([7])],
     )
     lab = grid_lab({"map": grid}, {}, {("map",): {"learning": shown}})
-    assert lab.data["runs"][0][0]["walks"] == [[7, 3, 0], [7]]
+    assert lab.data["runs"][0][0]["trajectories"] == [[7, 3, 0], [7]]
     assert json.dumps(lab.data)
 
 
