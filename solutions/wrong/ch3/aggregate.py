@@ -89,6 +89,18 @@ def silence_deletes(states, labels, visited, advice, capacity):
     return _listed(list(kept.items())[-capacity:], states)
 
 
+def silence_renews(states, labels, visited, advice, capacity):
+    """A visit without a label changes nothing: it does not make a known state the newest."""
+    kept = _pairs(states, labels)
+    for state, label in zip(map(tuple, visited.tolist()), advice.tolist()):
+        if label >= 0:
+            kept.pop(state, None)
+            kept[state] = label
+        elif state in kept:
+            kept[state] = kept.pop(state)
+    return _listed(list(kept.items())[-capacity:], states)
+
+
 def newest_first(states, labels, visited, advice, capacity):
     """Return the oldest pair first."""
     kept, of = _gathered(states, labels, visited, advice, capacity)

@@ -10,6 +10,7 @@ def _search(
     turn_cost,
     *,
     corners=False,
+    either=False,
     diagonal=2**0.5,
     clockwise=False,
     greedy=0.0,
@@ -19,6 +20,7 @@ def _search(
     at_once=False,
     improves=True,
     through=False,
+    ring=True,
 ):
     moves = [(0, 1), (1, 1), (1, 0), (1, -1), (0, -1), (-1, -1), (-1, 0), (-1, 1)]
     if clockwise:
@@ -46,8 +48,13 @@ def _search(
             continue
         closed.add(place)
         down, right = moves[heading]
-        options = [((row, column, (heading + turn) % 8), turn_cost) for turn in sides]
-        beside = corners or (free(row + down, column) and free(row, column + right))
+        options = [
+            ((row, column, (heading + turn) % 8), turn_cost)
+            for turn in sides
+            if ring or 0 <= heading + turn < 8
+        ]
+        both = free(row + down, column), free(row, column + right)
+        beside = corners or all(both) or (either and any(both))
         if free(row + down, column + right) and beside:
             options.append(
                 (
@@ -68,6 +75,11 @@ def _search(
 def cuts_corners(blocked, start, goal, turn_cost):
     """A diagonal move needs the two cells beside it to be free as well."""
     return _search(blocked, start, goal, turn_cost, corners=True)
+
+
+def needs_one_side(blocked, start, goal, turn_cost):
+    """A diagonal move needs both cells beside it to be free: one of them is not enough."""
+    return _search(blocked, start, goal, turn_cost, either=True)
 
 
 def counts_cells(blocked, start, goal, turn_cost):
@@ -103,6 +115,11 @@ def one_heading_for_a_cell(blocked, start, goal, turn_cost):
 def turns_left_only(blocked, start, goal, turn_cost):
     """The robot can turn to either side."""
     return _search(blocked, start, goal, turn_cost, sides=(1,))
+
+
+def headings_end(blocked, start, goal, turn_cost):
+    """The headings form a circle: a turn to the left leads from 7 to 0, and one to the right from 0 to 7."""
+    return _search(blocked, start, goal, turn_cost, ring=False)
 
 
 def pays_by_the_radian(blocked, start, goal, turn_cost):

@@ -46,6 +46,13 @@ def over_the_batch(weights, inputs):
     return e / e.sum(axis=0)
 
 
+def over_everything(weights, inputs):
+    """Each row is a distribution of its own: divide it by the sum of its own row, not of the whole array."""
+    z = _z(weights, inputs)
+    e = np.exp(z - z.max(axis=1, keepdims=True))
+    return e / e.sum()
+
+
 def squashed_twice(weights, inputs):
     """Apply the softmax to the last layer's weighted sums directly, without the hyperbolic tangent."""
     return _softmax(np.tanh(_z(weights, inputs)))

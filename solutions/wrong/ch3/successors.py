@@ -4,7 +4,8 @@ import numpy as np
 
 
 def _expanded(pose, speed, turn_cost, centres, radii, size, margin, *, signs=1, first=True, whole=True, border=True,
-              signed=False, keep=True, wrap=True, line=False, strict=False, thick=True, pays=1.0):  # fmt: skip
+              signed=False, keep=True, wrap=True, line=False, strict=False, thick=True, pays=1.0, edge=True,
+              goes=1.0):  # fmt: skip
     rows, start = [], pose[:2]
     for action, degrees in enumerate((0, 30, 60, -30, -60)):
         turn = signs * np.radians(degrees)
@@ -20,8 +21,9 @@ def _expanded(pose, speed, turn_cost, centres, radii, size, margin, *, signs=1, 
             else np.ones(len(centres))
         )
         gaps = np.hypot(*(centres - start - along[:, None] * way).T) - thick * radii
-        room = margin if keep else 0.0
+        room = margin if keep and edge else 0.0
         inside = min(*start, *end) >= room and max(*start, *end) <= size - room
+        room = margin if keep else 0.0
         if strict:
             room += 1e-9
         if np.all(gaps >= room) and (inside or not border):
@@ -31,7 +33,7 @@ def _expanded(pose, speed, turn_cost, centres, radii, size, margin, *, signs=1, 
                     action,
                     *end,
                     heading,
-                    speed + pays * turn_cost * (turn if signed else abs(turn)),
+                    goes * speed + pays * turn_cost * (turn if signed else abs(turn)),
                 ]
             )
     return np.array(rows).reshape(-1, 5)
@@ -55,6 +57,11 @@ def only_the_end(*arguments):
 def no_borders(*arguments):
     """The step must keep the margin to the borders of the map as well."""
     return _expanded(*arguments, border=False)
+
+
+def touches_borders(*arguments):
+    """The margin applies to the borders, too: it is not sufficient that the step stays in the map."""
+    return _expanded(*arguments, edge=False)
 
 
 def no_margin(*arguments):
@@ -90,6 +97,11 @@ def thin_obstacles(*arguments):
 def pays_nothing(*arguments):
     """The cost is the length of the step and, in addition, the cost of the turn."""
     return _expanded(*arguments, pays=0.0)
+
+
+def pays_for_the_turn_alone(*arguments):
+    """The cost of an action is the length of its step and the cost of its turn, added up."""
+    return _expanded(*arguments, goes=0.0)
 
 
 def pays_by_degrees(*arguments):
