@@ -33,7 +33,7 @@ export default explorable({
   },
   draw({ given: { sets }, stage }) {
     const plane = plot({ x: [LOW, HIGH], y: [LOW, HIGH], xLabel: "input x₁", yLabel: "input x₂", height: 380 });
-    stage.append(h("figure", {}, plane.element, legend([PALETTE.BLUE, "label 1, and answers near 1"], [PALETTE.ORANGE, "label 0, and answers near 0"])));
+    stage.append(h("figure", {}, plane.element, legend([PALETTE.ORANGE, "label 1, and answers near 1"], [PALETTE.BLUE, "label 0, and answers near 0"])));
     const size = (HIGH - LOW) / SHADES;
     return (neuron) => {
       const { first, second, bias, set: chosen } = neuron;
@@ -43,11 +43,11 @@ export default explorable({
         const a = answer(neuron, [x + size / 2, y + size / 2]);
         return svg("rect", {
           x: plane.X(x), y: plane.Y(y + size), width: plane.X(size) - plane.X(0) + 0.3, height: plane.Y(0) - plane.Y(size) + 0.3,
-          fill: a > 0.5 ? PALETTE.BLUE : PALETTE.ORANGE, "fill-opacity": (0.7 * Math.abs(a - 0.5)).toFixed(3),
+          fill: a > 0.5 ? PALETTE.ORANGE : PALETTE.BLUE, "fill-opacity": (0.7 * Math.abs(a - 0.5)).toFixed(3),
         });
       });
       const inside = lineOf(neuron);
-      const dots = points.map(([x, y], i) => svg("circle", { cx: plane.X(x), cy: plane.Y(y), r: 4, fill: labels[i] ? PALETTE.BLUE : PALETTE.ORANGE, stroke: "var(--ink)", "stroke-width": 0.7 }));
+      const dots = points.map(([x, y], i) => svg("circle", { cx: plane.X(x), cy: plane.Y(y), r: 4, fill: labels[i] ? PALETTE.ORANGE : PALETTE.BLUE, stroke: "var(--ink)", "stroke-width": 0.7 }));
       const count = right(neuron, points, labels);
       plane.put(
         `Answers of a neuron with weights ${first} and ${second} and bias ${bias}`,

@@ -61,7 +61,7 @@ def has_answers(plane: Picture, neuron: networks.Network) -> None:
     answers = neuron.forward(places)[:, 0]
     shades = plane.of("rect")
     shown = [
-        0.5 + float(s["fill-opacity"]) / 0.7 * (1 if s["fill"] == BLUE else -1)
+        0.5 + float(s["fill-opacity"]) / 0.7 * (1 if s["fill"] == ORANGE else -1)
         for s in shades
     ]
     np.testing.assert_allclose(shown, answers, atol=0.001)

@@ -737,7 +737,7 @@ def test_accuracy_counts_as_in_python(compute):
     ];"""
     near, every, balanced = compute("accuracy_and_success", body)
     worlds = random_worlds(25, obstacles=10, seed=7)
-    demonstrations = demonstrate(worlds, reflex=Reflex("exact"))
+    demonstrations = demonstrate(worlds)
     pairs = demonstrations.effective
     same = [
         policy(pairs.sensing, np.random.default_rng(0)) == pairs.actions
@@ -747,7 +747,7 @@ def test_accuracy_counts_as_in_python(compute):
     safe = len(demonstrations) - len(pairs)
     assert every == pytest.approx((same[0].sum() + safe) / len(demonstrations))
     assert balanced == pytest.approx(0.2)  # it is right for one action of five
-    assert [round(100 * share, 1) for share in near] == [47.5, 47.5]  # as asked
+    assert [round(100 * share, 1) for share in near] == [44.1, 44.1]  # as asked
     first, second, _ = explorable("accuracy_and_success").data["given"]["policies"]
     assert second["success"] - first["success"] > 0.5
 
