@@ -103,12 +103,14 @@ def value_of_features(rng: Rng) -> Question:
 
 
 @drill("feature-expectations", "Refine contradictory demonstrations")
-def refined(rng: Rng) -> Question:
+def refined(rng: Rng) -> Question | None:
     """Count which action a state keeps under two priors."""
     left_here, right_here = (
         int(n) for n in rng.choice([2, 3, 4, 5, 6], size=2, replace=False)
     )
     left_there, right_there = (int(n) for n in rng.integers(0, 40, size=2))
+    if left_here * right_there == right_here * left_there:
+        return None  # P(s | a) is the same for both
     states = [0] * (left_here + right_here) + [1] * (left_there + right_there)
     actions = [0] * left_here + [1] * right_here + [0] * left_there + [1] * right_there
     frequent = int(nirl.most_frequent(states, actions, 2).actions[0])

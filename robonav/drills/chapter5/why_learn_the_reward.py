@@ -203,10 +203,12 @@ def target_has_moved(rng: Rng) -> Question:
 
 
 @drill("why-learn-the-reward", "Likelihoods of a rare and of a frequent action")
-def rare_and_frequent(rng: Rng) -> Question:
+def rare_and_frequent(rng: Rng) -> Question | None:
     """Compute the likelihoods from which contradictory demonstrations are corrected."""
     here = rng.choice(np.arange(1, 21), size=2, replace=False)
     there = rng.choice([0, 5, 10, 20, 30, 50, 60], size=2, replace=False)
+    if here[0] * there[1] == here[1] * there[0]:
+        return None  # the likelihoods are equal
     states = np.repeat([0, 0, 1, 1], [*here, *there])
     actions = np.repeat([0, 1, 0, 1], [*here, *there])
     counts, _ = count_pairs(states, actions, 2)

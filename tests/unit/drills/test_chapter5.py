@@ -10,6 +10,8 @@ import pytest
 from numbers_in_texts import drawn, numbers
 from scipy.optimize import minimize_scalar
 
+from robonav.drills import DRILLS
+
 
 def test_of_one_trajectory() -> None:
     for question in drawn("of-one-trajectory"):
@@ -41,6 +43,7 @@ def test_refined() -> None:
         left, right, left_there, right_there = numbers(text)
         frequent = int(right > left)
         likelihoods = left / (left + left_there), right / (right + right_there)
+        assert likelihoods[0] != pytest.approx(likelihoods[1])  # no action is as good
         uniform = int(likelihoods[1] > likelihoods[0])
         assert np.ravel(question.asked.answer).tolist() == [frequent, uniform]
 
@@ -215,6 +218,7 @@ def test_rare_and_frequent() -> None:
     for question in drawn("rare-and-frequent"):
         forward, left, forward_there, left_there = numbers(question.text)[:4]
         p = forward / (forward + forward_there), left / (left + left_there)
+        assert p[0] != pytest.approx(p[1])  # one of them is larger
         changed = left if p[0] >= p[1] else forward
         assert np.ravel(question.asked.answer) == pytest.approx([*p, changed])
 
@@ -338,3 +342,11 @@ def test_after_a_change() -> None:
             assert fits == [question.asked.right]
         else:
             assert what_holds(text) in question.asked.right
+
+
+@pytest.mark.parametrize("name", ["refined", "rare-and-frequent"])
+def test_no_likelihood_ties_in_many_questions(name: str) -> None:
+    for seed in range(600):
+        question = DRILLS[name].question(seed)
+        a_here, b_here, a_there, b_there = numbers(question.text)[:4]
+        assert a_here * b_there != b_here * a_there, question.text
