@@ -1,6 +1,7 @@
 """Chapter 5's experiments: what they run, what was chosen, what was published."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -272,3 +273,16 @@ def test_the_tuning_writes_the_hyperparameters(tmp_path):
     assert (
         tmp_path / "hyperparameters.toml"
     ).read_bytes() == HYPERPARAMETERS.read_bytes()
+
+
+def test_the_page_says_how_the_tuned_settings_differ_from_its_own():
+    page = Path(__file__).parents[3] / "book/nirl-in-practice.md"
+    chosen = tuned("nirl")
+    differ = {key for key in DEFAULTS if DEFAULTS[key] != chosen[key]}
+    assert differ == {"hidden", "replay", "gradient_step", "target"}
+    said = (
+        f"{chosen['hidden']} hidden units in place of {DEFAULTS['hidden']}, the decisions of the last "
+        f"{chosen['replay']} iterations in place of {DEFAULTS['replay']}, a gradient step $\\sigma$ that stays at "
+        f"{chosen['gradient_step'][1]}, and the target's sector as one {chosen['target']} number"
+    )
+    assert said in page.read_text("utf-8")
