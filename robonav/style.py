@@ -13,7 +13,7 @@ SKY, PURPLE, YELLOW, GREY = "#56B4E9", "#CC79A7", "#F0E442", "#7F7F7F"
 
 ROBOT, TARGET, OBSTACLE, MOVING = BLUE, VERMILION, "#767B81", PURPLE
 
-METHODS: dict[str, str] = {
+METHOD_COLOURS: dict[str, str] = {
     "straight": GREY,
     "freer-side": "#A6761D",
     "A*": ORANGE,

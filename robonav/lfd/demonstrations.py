@@ -21,7 +21,7 @@ from robonav.robot import (
     Worlds,
     run_episodes,
 )
-from robonav.robot.worlds import concatenate as concatenate_worlds
+from robonav.robot.worlds import concatenate_worlds
 from robonav.validation import (
     check_array,
     check_callable,

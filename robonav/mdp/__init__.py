@@ -41,7 +41,7 @@ from .linear import linear_q_learning, linear_sarsa
 from .localisation import Localiser, PoseGrid, RangeSensor, pose_transitions
 from .models import FiniteMDP, expected_rewards
 from .monte_carlo import monte_carlo_control, monte_carlo_prediction
-from .policies import greedy_actions, greedy_mixture
+from .policies import greedy_action_mask, greedy_mixture
 from .pomdp import (
     POMDP,
     BeliefMDP,
@@ -110,7 +110,7 @@ __all__ = [
     "fork",
     "four_by_three",
     "generalized_policy_iteration",
-    "greedy_actions",
+    "greedy_action_mask",
     "greedy_mixture",
     "harmonic_decay",
     "in_place_value_iteration",

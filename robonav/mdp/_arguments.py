@@ -75,7 +75,7 @@ MODEL_ARRAYS = {
 }
 """Arrays of numbers whose shape follows from the argument ``mdp``."""
 
-METHODS = {
+CHECKING_METHODS = {
     "action": "as_action",
     "belief": "as_belief",
     "ranges": "as_ranges",
@@ -93,8 +93,8 @@ def check_by_model(function: str, arguments: dict[str, Any]) -> None:
     """Check what the model decides: shapes of arrays, beliefs over its states, and which actions there are."""
     if "self" in arguments:
         model = getattr(arguments["self"], "pomdp", arguments["self"])
-        for name in METHODS.keys() & arguments.keys():
-            arguments[name] = getattr(model, METHODS[name])(arguments[name])
+        for name in CHECKING_METHODS.keys() & arguments.keys():
+            arguments[name] = getattr(model, CHECKING_METHODS[name])(arguments[name])
     if function == "expected_return":
         states = arguments["mdp"].n_states
         arguments["start"] = as_distributions("start", arguments["start"], states)

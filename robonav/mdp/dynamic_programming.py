@@ -118,17 +118,17 @@ def value_iteration(
     >>> solution.iterations, solution.values.round(2)[:4]
     (29, array([0.69, 0.8 , 0.9 , 0.  ]))
     """
-    gamma = mdp.discount
+    discount = mdp.discount
     values = np.zeros(mdp.n_states) if start is None else start  # 1 and 2
     for iteration in range(1, max_iterations + 1):  # 3: repeat
         previous = values
         # (S, A): the sum over s' of T(s, a, s') V(s'); one matrix (S, S) an action
         expected = np.stack([matrix @ previous for matrix in mdp.transitions], axis=1)
-        q = mdp.rewards + gamma * expected  # Eq. (2.15)
+        q = mdp.rewards + discount * expected  # Eq. (2.15)
         values = q.max(axis=1)  # 4 and 5  Eq. (2.26)
         residual = abs(values - previous).max()
         # the most that the greedy policy can lose; without discount there is no bound
-        loss = 2 * gamma / (1 - gamma) * residual if gamma < 1 else residual
+        loss = 2 * discount / (1 - discount) * residual if discount < 1 else residual
         if loss <= tolerance:  # 6
             break
     policy = greedy_policy(mdp, values, tolerance)  # 7: argmax of Q(s, a)  Eq. (2.25)
@@ -190,17 +190,17 @@ def policy_iteration(
     >>> solution.iterations, solution.policy
     (3, array([1, 1, 1, 0, 0, 0, 0, 0, 3, 0, 3]))
     """
-    gamma, states = mdp.discount, np.arange(mdp.n_states)
+    discount, states = mdp.discount, np.arange(mdp.n_states)
     transitions = np.stack([dense(matrix) for matrix in mdp.transitions])  # (A, S, S)
     policy = first_policy(mdp, start)  # 1 and 2: towards the terminal states
     for iteration in range(1, max_iterations + 1):  # 3 and 4: repeat
         # 5 to 8, evaluate: solve V = r_pi + gamma T_pi V  Eq. (2.5)
         of_policy = transitions[policy, states]  # T_pi (S, S): T(s, pi(s), .)
         rewards = mdp.rewards[states, policy]  # r_pi (S,): r(s, pi(s))
-        values = np.linalg.solve(np.eye(len(states)) - gamma * of_policy, rewards)
+        values = np.linalg.solve(np.eye(len(states)) - discount * of_policy, rewards)
 
         # 9, improve: the best action of each state, where it gains something
-        q = mdp.rewards + gamma * (transitions @ values).T  # Q_pi (S, A)  Eq. (2.15)
+        q = mdp.rewards + discount * (transitions @ values).T  # Q_pi  Eq. (2.15)
         gains = q - values[:, None]  # Q_pi(s, a) - V_pi(s)
         better = gains.max(axis=1) > gain_that_counts(mdp, values, tolerance)
         policy = np.where(better, q.argmax(axis=1), policy)  # 10  Eq. (2.25)
@@ -276,24 +276,24 @@ def modified_policy_iteration(
     >>> solution.values.round(2)[:4]
     array([0.69, 0.8 , 0.9 , 0.  ])
     """
-    gamma = mdp.discount
+    discount = mdp.discount
     values = start
     if values is None:  # the least reward forever: no sweep lowers these values
-        values = np.where(mdp.terminal, 0, min(mdp.rewards.min(), 0) / (1 - gamma))
+        values = np.where(mdp.terminal, 0, min(mdp.rewards.min(), 0) / (1 - discount))
     for iteration in range(1, max_iterations + 1):
-        q = mdp.rewards + gamma * mdp.expected_next_values(values)
+        q = mdp.rewards + discount * mdp.expected_next_values(values)
         change = q.max(axis=1) - values
         policy, values = q.argmax(axis=1), q.max(axis=1)  # improve  Eqs. (2.25), (2.26)
-        spread = change.max() - change.min() if gamma < 1 else abs(change).max()
-        loss = gamma / (1 - gamma) * spread if gamma < 1 else spread  # at most
+        spread = change.max() - change.min() if discount < 1 else abs(change).max()
+        loss = discount / (1 - discount) * spread if discount < 1 else spread  # at most
         if loss <= tolerance:
             break
         transitions, rewards = mdp.induced_chain(policy)  # T_pi (S, S) and r_pi (S,)
         for _ in range(sweeps):  # evaluate  Eq. (2.24)
-            values = rewards + gamma * (transitions @ values)
+            values = rewards + discount * (transitions @ values)
     policy = greedy_policy(mdp, values, tolerance)
     converged = loss <= tolerance
-    if converged and gamma < 1:  # V* - V lies between two bounds: take their middle
-        missing = gamma / (1 - gamma) * (change.min() + change.max()) / 2
+    if converged and discount < 1:  # V* - V lies between two bounds: take their middle
+        missing = discount / (1 - discount) * (change.min() + change.max()) / 2
         values = np.where(mdp.terminal, 0, values + missing)
     return Solution(values, policy, iteration, spread, converged)

@@ -180,7 +180,7 @@ def uniform(states: int, actions: int) -> NDArray[np.float64]:
     return np.full((states, actions), 1 / actions)
 
 
-def greedy_actions(
+def greedy_action_mask(
     action_values: ArrayLike, *, tolerance: float = 1e-9
 ) -> NDArray[np.bool_]:
     """Which actions are greedy: those within ``tolerance`` of the best of each state.
@@ -196,8 +196,8 @@ def greedy_actions(
 
     Examples
     --------
-    >>> from robonav.mdp import greedy_actions
-    >>> greedy_actions([[1.0, 2.0, 2.0]])
+    >>> from robonav.mdp import greedy_action_mask
+    >>> greedy_action_mask([[1.0, 2.0, 2.0]])
     array([[False,  True,  True]])
     """
     q = check_array("action_values", action_values, shape=("S", "A"))
@@ -227,7 +227,7 @@ def greedy_mixture(
     >>> greedy_mixture([[1.0, 2.0, 2.0]])
     array([[0. , 0.5, 0.5]])
     """
-    best = greedy_actions(action_values, tolerance=tolerance)
+    best = greedy_action_mask(action_values, tolerance=tolerance)
     return best / best.sum(axis=1, keepdims=True)
 
 

@@ -159,7 +159,7 @@ def proper_values(mdp: FiniteMDP, start: Floats) -> Floats:
     array([-1.,  0.,  0.])
     """
     _, shortest = shortest_path_policy(mdp, mdp.terminal)
-    greedy = policies.greedy_actions(mdp.action_values(start))
+    greedy = policies.greedy_action_mask(mdp.action_values(start))
     steps, onwards = shortest_path_policy(mdp, mdp.terminal, greedy)
     policy = np.where(np.isfinite(steps), onwards, shortest)
     values = policy_values(*mdp.induced_chain(policy), guess=start)
@@ -182,7 +182,7 @@ def greedy_policy(mdp: FiniteMDP, values: Floats, tolerance: float) -> NDArray[n
     array([1, 1])
     """
     q = clamp_undiscounted(mdp, mdp.action_values(values))
-    best = policies.greedy_actions(q, tolerance=tolerance)
+    best = policies.greedy_action_mask(q, tolerance=tolerance)
     steps, onwards = shortest_path_policy(mdp, mdp.terminal, best)
     ends = np.isfinite(steps)
     staying = zero_reward_absorbing(mdp)

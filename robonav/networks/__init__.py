@@ -14,7 +14,7 @@ from .multilayer_perceptron import (
     Gradient,
     Network,
     backpropagate,
-    descend,
+    gradient_descent_step,
     propagate,
     sigmoid,
     sigmoid_slope,
@@ -24,7 +24,7 @@ from .network_stack import NetworkStack, stacked
 from .onnx_files import save_onnx
 from .optimisers import fit, gradient_descent, lbfgs, one_hot
 from .policy import NetworkPolicy
-from .training_history import TrainingHistory, accuracy
+from .training_history import TrainingHistory, network_accuracy
 from .unit_by_unit import (
     action_probabilities,
     backpropagate_by_units,
@@ -42,19 +42,19 @@ __all__ = [
     "Objective",
     "TrainingHistory",
     "Weights",
-    "accuracy",
     "action_probabilities",
     "backpropagate",
     "backpropagate_by_units",
     "batch_gradient_descent",
     "cross_entropy_cost",
     "cross_entropy_gradient",
-    "descend",
     "fit",
     "forward_by_units",
     "gradient_descent",
+    "gradient_descent_step",
     "lbfgs",
     "load_weights",
+    "network_accuracy",
     "one_hot",
     "propagate",
     "random_network",

@@ -219,7 +219,7 @@ Examples
 [[-0.5, -1.0]]
 """
 
-HELP["descend"] = """
+HELP["gradient_descent_step"] = """
 Parameters
 ----------
 network : Network
@@ -237,9 +237,9 @@ Network
 Examples
 --------
 >>> import numpy as np
->>> from robonav.networks import Gradient, Network, descend
+>>> from robonav.networks import Gradient, Network, gradient_descent_step
 >>> network = Network((np.array([[3.0]]),), (np.array([1.0]),))
->>> descend(network, Gradient([np.array([[4.0]])], [np.array([0.0])]), 0.5).weights
+>>> gradient_descent_step(network, Gradient([np.array([[4.0]])], [np.array([0.0])]), 0.5).weights
 (array([[1.]]),)
 """
 

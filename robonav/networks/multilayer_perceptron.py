@@ -248,7 +248,7 @@ def cross_entropy_gradient(
 # 4. Downhill: one step against the gradient, and the two loops that repeat it.
 
 
-def descend(
+def gradient_descent_step(
     network: Network, gradient: Gradient, gradient_step: float | Array
 ) -> Network:
     """One step of gradient descent, Eqs. (3.8), (3.28) and (4.12).
@@ -275,7 +275,7 @@ def batch_gradient_descent(
     """Batch gradient descent, Eq. (3.16): every step uses all examples."""
     for _ in range(iterations):
         gradient = cost_gradient(network, x, y, regularisation=regularisation)
-        network = descend(network, gradient, gradient_step)  # Eq. (3.16)
+        network = gradient_descent_step(network, gradient, gradient_step)  # Eq. (3.16)
     return network
 
 
@@ -301,5 +301,5 @@ def stochastic_gradient_descent(
         for first in range(0, len(x), batch_size):
             batch = order[first : first + batch_size]
             gradient = cost_gradient(network, x[batch], y[batch])
-            network = descend(network, gradient, gradient_step)
+            network = gradient_descent_step(network, gradient, gradient_step)
     return network

@@ -14,7 +14,7 @@ from ._checks import checked_examples, documented
 from ._interface import random_network
 from .costs import SQUARED_ERROR, Objective
 from .multilayer_perceptron import Array, Network, batch_gradient_descent
-from .training_history import Recorder, TrainingHistory, accuracy
+from .training_history import Recorder, TrainingHistory, network_accuracy
 
 MOST_ITERATIONS = 100_000  # these take minutes; a larger number is a slip of the pen
 
@@ -104,7 +104,7 @@ def gradient_descent(
 
     def keep(network: Network) -> None:
         cost = objective.cost(network, inputs, labels, regularisation=regularisation)
-        recorder.add(network, cost, accuracy(network, inputs, labels))
+        recorder.add(network, cost, network_accuracy(network, inputs, labels))
 
     keep(network)
     for _ in range(count):

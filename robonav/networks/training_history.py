@@ -99,7 +99,7 @@ class Recorder:
         )
 
 
-def accuracy(network: Network, x: ArrayLike, y: ArrayLike) -> float:
+def network_accuracy(network: Network, x: ArrayLike, y: ArrayLike) -> float:
     """Return the fraction of examples whose largest output is the labelled one.
 
     A network with a single output says yes where it is above 1/2.
@@ -119,8 +119,8 @@ def accuracy(network: Network, x: ArrayLike, y: ArrayLike) -> float:
 
     Examples
     --------
-    >>> from robonav.networks import accuracy, random_network
-    >>> accuracy(random_network((2, 1), seed=0, spread=0), [[0, 0], [1, 1]], [[0], [1]])
+    >>> from robonav.networks import network_accuracy, random_network
+    >>> network_accuracy(random_network((2, 1), seed=0, spread=0), [[0, 0], [1, 1]], [[0], [1]])
     0.5
     """
     inputs, labels = checked_examples(network, x, y)

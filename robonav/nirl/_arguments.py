@@ -46,7 +46,7 @@ def learning_task(name: str, value: Any) -> Any:
 
 def improver(name: str, value: Any) -> Any:
     """What improves a network, see ``Improver``."""
-    if isinstance(value, type) or not hasattr(value, "descend"):
+    if isinstance(value, type) or not hasattr(value, "improve"):
         raise TypeError(f"{name} must be such as ReplaySGD(), got {value!r}")
     return value
 

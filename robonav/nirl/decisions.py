@@ -133,7 +133,7 @@ def add_constant(inputs: Floats) -> Floats:
     return np.concatenate([inputs, np.ones((len(inputs), 1))], axis=1)
 
 
-def concatenate(parts: Sequence[Decisions]) -> Decisions:
+def concatenate_decisions(parts: Sequence[Decisions]) -> Decisions:
     """Several as one, their episodes numbered from the first to the last."""
     offsets = np.cumsum([0] + [len(part.collided) for part in parts])
     trajectories = [

@@ -22,7 +22,7 @@ from robonav.networks.multilayer_perceptron import Network, sigmoid
 from robonav.progress import Progress
 
 from ._arguments import checked
-from .decisions import Decisions, Floats, Ints, concatenate
+from .decisions import Decisions, Floats, Ints, concatenate_decisions
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, balanced_accuracy
 from .policy import exploring_policy, neural_action_values
@@ -120,11 +120,11 @@ def nirl(
         reward = project_to_unit_ball(theta)
         if expert_margin(demonstrations, pi, reward) <= tolerance:  # 6
             break  # 7, 8
-        pairs = concatenate(episodes[-improver.replay :])
+        pairs = concatenate_decisions(episodes[-improver.replay :])
         rewards = decision_rewards(reward, pairs)  # 9: theta . f(s, a)
         fraction = (i - 1) / max(iterations - 1, 1)
         # 9, 10: targets, Eq. (5.16), and descent to them, as in sarsa_descent below
-        network, cost = improver.descend(network, pairs, rewards, fraction, rng)
+        network, cost = improver.improve(network, pairs, rewards, fraction, rng)
         record.add(episodes[-1], reward, network, cost)
     return record.result(score)
 

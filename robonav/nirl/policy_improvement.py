@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from robonav.networks.multilayer_perceptron import (
     Network,
     cross_entropy_gradient,
-    descend,
+    gradient_descent_step,
 )
 from robonav.validation import ArrayArgument, check_integer, check_positive, check_real
 
@@ -42,7 +42,7 @@ class Improver(Protocol):
     def replay(self) -> int:
         """Number of latest iterations with whose decisions the network trains."""
 
-    def descend(
+    def improve(
         self,
         network: Network,
         decisions: Decisions,
@@ -252,7 +252,7 @@ class ReplaySGD:
         for value in self.terminal_values:
             check_real("terminal_values", value, at_least=0, at_most=1)
 
-    def descend(
+    def improve(
         self,
         network: Network,
         decisions: Decisions,
@@ -289,7 +289,7 @@ class ReplaySGD:
         >>> decisions = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
         >>> network = random_network((task.n_inputs, 5, 4), seed=0)
         >>> rewards = np.zeros(len(decisions))
-        >>> ReplaySGD().descend(network, decisions, rewards, 0.0, rng).network.sizes
+        >>> ReplaySGD().improve(network, decisions, rewards, 0.0, rng).network.sizes
         (42, 5, 4)
         """
         if len(decisions) == 0:
@@ -370,7 +370,7 @@ class FullBatchDescent:
         check_positive("gradient_step", self.gradient_step)
         check_real("regularisation", self.regularisation, at_least=0)
 
-    def descend(
+    def improve(
         self,
         network: Network,
         decisions: Decisions,
@@ -407,7 +407,7 @@ class FullBatchDescent:
         >>> decisions = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
         >>> network = random_network((task.n_inputs, 5, 4), seed=0)
         >>> rewards = np.zeros(len(decisions))
-        >>> FullBatchDescent().descend(network, decisions, rewards, 0.0, rng).network.sizes
+        >>> FullBatchDescent().improve(network, decisions, rewards, 0.0, rng).network.sizes
         (42, 5, 4)
         """
         if len(decisions) == 0:
@@ -427,5 +427,5 @@ class FullBatchDescent:
         cost = policy_cost(network, inputs, targets, **decay)
         for _ in range(self.n_steps):
             gradient = cross_entropy_gradient(network, inputs, targets, **decay)
-            network = descend(network, gradient, self.gradient_step)
+            network = gradient_descent_step(network, gradient, self.gradient_step)
         return Improved(network, cost)

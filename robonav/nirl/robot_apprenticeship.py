@@ -17,7 +17,7 @@ from robonav.progress import Progress
 
 from ._arguments import checked
 from .apprenticeship import RewardGuess, projection_guess
-from .decisions import Decisions, concatenate
+from .decisions import Decisions, concatenate_decisions
 from .feature_expectations import decision_feature_sums
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, balanced_accuracy
@@ -162,14 +162,16 @@ def apprenticeship(
     >>> len(apprenticeship(expert, task, n_rewards=2, iterations=4).history.costs)
     4
     """
-    rng, eta = np.random.default_rng(seed), inverse_temperature
+    rng = np.random.default_rng(seed)
     n_actions, discount = task.n_actions, improver.discount
     network = random_network((task.n_inputs, hidden, n_actions), seed=rng)
     per_reward = max(iterations // n_rewards, 1)
     total = n_rewards * per_reward
-    record = IRLRecorder(demonstrations, task, network, eta, total, progress)
+    record = IRLRecorder(
+        demonstrations, task, network, inverse_temperature, total, progress
+    )
     mu_expert = expectations(demonstrations, n_actions, discount)
-    episodes = [task.rollout(exploring_policy(network, eta), rng)]
+    episodes = [task.rollout(exploring_policy(network, inverse_temperature), rng)]
     found = [expectations(episodes[0], n_actions, discount)]  # 1
     for _ in range(n_rewards):
         weights, distance = guess(mu_expert, found)  # 2
@@ -177,11 +179,13 @@ def apprenticeship(
             break
         theta = project_to_unit_ball(weights.reshape(n_actions, -1))
         for _ in range(per_reward):  # 4
-            pairs = concatenate(episodes[-improver.replay :])
+            pairs = concatenate_decisions(episodes[-improver.replay :])
             rewards = decision_rewards(theta, pairs)  # theta . f(s, a)
             fraction = (len(episodes) - 1) / max(total - 1, 1)
-            network, cost = improver.descend(network, pairs, rewards, fraction, rng)
+            network, cost = improver.improve(network, pairs, rewards, fraction, rng)
             record.add(episodes[-1], theta, network, cost)
-            episodes.append(task.rollout(exploring_policy(network, eta), rng))
+            episodes.append(
+                task.rollout(exploring_policy(network, inverse_temperature), rng)
+            )
         found.append(expectations(episodes[-1], n_actions, discount))  # 5, 6
     return record.result(score)

@@ -14,7 +14,7 @@ from robonav.networks.network_stack import NetworkStack, stacked
 from robonav.progress import Progress
 
 from ._arguments import checked
-from .decisions import Decisions, Floats, concatenate
+from .decisions import Decisions, Floats, concatenate_decisions
 from .max_margin import project_to_unit_ball
 from .model_selection import Score, accuracy, balanced_accuracy
 from .policy import exploring_policy, greedy_actions
@@ -317,9 +317,9 @@ def train_under_reward(
         episodes.append(
             task.rollout(exploring_policy(network, inverse_temperature), rng)
         )
-        pairs = concatenate(episodes[-improver.replay :])
+        pairs = concatenate_decisions(episodes[-improver.replay :])
         rewards = decision_rewards(theta, pairs)  # theta . f(s, a)
         fraction = iteration / max(iterations - 1, 1)
-        network, cost = improver.descend(network, pairs, rewards, fraction, rng)
+        network, cost = improver.improve(network, pairs, rewards, fraction, rng)
         record.add(episodes[-1], theta, network, cost)
     return record.result(score)

@@ -28,7 +28,7 @@ from .updates import (
     network_error,
     q_targets,
     shift,
-    stochastic_gradient_descent,
+    train_on_pairs,
 )
 
 __all__ = [
@@ -66,8 +66,8 @@ __all__ = [
     "shift",
     "softmax_policy",
     "state_property",
-    "stochastic_gradient_descent",
     "train",
+    "train_on_pairs",
     "values_taken",
     "weight_changes",
 ]

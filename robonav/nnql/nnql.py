@@ -22,7 +22,7 @@ from robonav.networks.policy import sample_actions
 from ._arguments import Schedule, checked
 from .schedules import geometric_schedule, softmax_policy
 from .task import EXPLORING, make_rng, reflex_acted
-from .updates import RESCALE, q_targets, stochastic_gradient_descent
+from .updates import RESCALE, q_targets, train_on_pairs
 
 
 @checked
@@ -86,7 +86,7 @@ def nnql(
                 )  # 13  Eq. (4.9)
                 targets.append(RESCALE[rescale](q))  # 14, 15
                 inputs.append(state)  # 15
-                network = stochastic_gradient_descent(
+                network = train_on_pairs(
                     network, inputs, targets, sigma, passes, tolerance
                 )  # 16  Eqs. (4.11) and (4.12)
             state, done = next_state, terminated or truncated  # 17 to 20
@@ -140,7 +140,7 @@ def online(
                 next_value = 0.0 if terminated else network.forward(next_state).max()
                 q = q_targets(q, action, float(reward), next_value, alpha, discount)
                 # the latest pair alone
-                network = stochastic_gradient_descent(
+                network = train_on_pairs(
                     network, [state], [RESCALE[rescale](q)], sigma, passes, tolerance
                 )
             state, done = next_state, terminated or truncated

@@ -7,7 +7,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.networks.multilayer_perceptron import Network, backpropagate, descend
+from robonav.networks.multilayer_perceptron import (
+    Network,
+    backpropagate,
+    gradient_descent_step,
+)
 from robonav.validation import ArrayArgument
 
 from ._arguments import checked_arguments
@@ -170,7 +174,7 @@ def cross_entropy(targets: ArrayLike, logits: ArrayLike) -> Array:
     return costs.sum(axis=-1)
 
 
-def stochastic_gradient_descent(
+def train_on_pairs(
     network: Network,
     inputs: Sequence[Array],
     targets: Sequence[Array],
@@ -204,9 +208,9 @@ def stochastic_gradient_descent(
     --------
     >>> import numpy as np
     >>> from robonav.networks import random_network
-    >>> from robonav.nnql import stochastic_gradient_descent
+    >>> from robonav.nnql import train_on_pairs
     >>> network, state, target = random_network((4, 8, 2), seed=0), np.eye(4)[0], np.array([0.2, 0.9])
-    >>> trained = stochastic_gradient_descent(network, [state], [target], gradient_step=1, passes=500, tolerance=0)
+    >>> trained = train_on_pairs(network, [state], [target], gradient_step=1, passes=500, tolerance=0)
     >>> trained.forward(state).round(2)
     array([0.2, 0.9])
     """
@@ -218,7 +222,7 @@ def stochastic_gradient_descent(
             cost += float(cross_entropy(target, network.logits(state))) / len(inputs)
             delta = network_error(target, layers[-1])
             gradient = backpropagate(network.weights, layers, -delta)  # of the cost
-            network = descend(network, gradient, gradient_step)
+            network = gradient_descent_step(network, gradient, gradient_step)
         if abs(previous - cost) < tolerance:
             break
         previous = cost

@@ -23,7 +23,7 @@ from .experiments import setting_label
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-COLOURS = style.METHODS | {
+COLOURS = style.METHOD_COLOURS | {
     "dagger": style.GREEN,
     "1-neighbour": style.YELLOW,
     "5-neighbours": style.ORANGE,
@@ -49,7 +49,7 @@ def draw_search(
     world: Worlds,
     made: Plan | GridPlan,
     *,
-    colour: str = style.METHODS["A*"],
+    colour: str = style.METHOD_COLOURS["A*"],
 ) -> None:
     """Draw a planned path as stars, and the nodes expanded as dots from light (early) to dark (late) (Fig. 3.4).
 
@@ -95,7 +95,7 @@ def draw_named_paths(
     world: Worlds,
     paths: Mapping[str, ArrayLike],
     *,
-    colours: Mapping[str, str] = style.METHODS,
+    colours: Mapping[str, str] = style.METHOD_COLOURS,
 ) -> None:
     """Draw several paths on one map, each with its name in the legend (Fig. 3.5, 3.9).
 
@@ -163,7 +163,7 @@ def draw_demonstrations(
         axes.plot(*one.poses[:, :2].T, color=style.GREY, linewidth=1)
         axes.plot(
             *one.effective.poses[:, :2].T,
-            color=style.METHODS["A*"],
+            color=style.METHOD_COLOURS["A*"],
             linestyle="none",
             marker=".",
             markersize=4,
@@ -321,8 +321,8 @@ def plot_planners(results: Results) -> Figure:
         [np.hypot(80.0, float(case["target y"]) - 10) for case in cases]
     )
     for shift, name, colour in (
-        (-0.2, "modified A*", style.METHODS["A*"]),
-        (0.2, "grid A*", style.METHODS["grid A*"]),
+        (-0.2, "modified A*", style.METHOD_COLOURS["A*"]),
+        (0.2, "grid A*", style.METHOD_COLOURS["grid A*"]),
     ):
         length, nodes = (
             [

@@ -170,7 +170,7 @@ def draw_margin(
     arrow = {"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 2}
     axes.annotate("", (mu[0], mu[1]), (foot[0], foot[1]), arrowprops=arrow)
     axes.plot(*rivals.T, "o", color=style.GREY, label="other policies")
-    axes.plot(*mu, "*", color=style.METHODS["A*"], markersize=15, label="expert")
+    axes.plot(*mu, "*", color=style.METHOD_COLOURS["A*"], markersize=15, label="expert")
     axes.legend(loc="lower right")
 
 
@@ -220,7 +220,7 @@ def animate_projection(
             )
         axes.plot(*points[: frame + 1].T, ".-", color=style.BLUE, linewidth=1)
         axes.plot(*policies[frame], "o", color=style.ORANGE, markersize=9)
-        axes.plot(*mu, "*", color=style.METHODS["A*"], markersize=14)
+        axes.plot(*mu, "*", color=style.METHOD_COLOURS["A*"], markersize=14)
         axes.set(
             aspect="equal",
             title=f"policy {frame + 1}: {np.linalg.norm(mu - points[frame]):.3f} from the expert",
@@ -259,7 +259,7 @@ def draw_counts(
     """
     x = np.asarray(numbers, dtype=float)
     axes.axhspan(*thesis, color=style.GREY, alpha=0.25, linewidth=0, label="thesis")
-    colours = (style.METHODS["A*"], style.PURPLE, style.SKY, style.VERMILION)
+    colours = (style.METHOD_COLOURS["A*"], style.PURPLE, style.SKY, style.VERMILION)
     for (name, runs), colour in zip(counts.items(), colours, strict=False):
         rows = np.asarray(runs, dtype=float)
         axes.fill_between(
@@ -328,7 +328,7 @@ def draw_densities(
     """
     for name, given in rates.items():
         runs = np.asarray(given, dtype=float)
-        colour = style.METHODS.get(name, style.BLUE)
+        colour = style.METHOD_COLOURS.get(name, style.BLUE)
         axes.fill_between(
             obstacles,
             runs.min(axis=0),

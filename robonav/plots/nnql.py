@@ -184,7 +184,7 @@ def draw_learning(
         runs = np.atleast_2d(np.asarray(given, dtype=float))
         ends = size * np.arange(1, runs.shape[1] + 1)
         mean, spread = runs.mean(axis=0), runs.std(axis=0)
-        colour = style.METHODS.get(name, style.BLUE)
+        colour = style.METHOD_COLOURS.get(name, style.BLUE)
         axes.fill_between(
             ends, mean - spread, mean + spread, color=colour, alpha=0.18, linewidth=0
         )
@@ -314,7 +314,7 @@ def draw_rates(
     """
     for row, (name, values) in enumerate(rates.items()):
         dots = np.sort(np.asarray(values, dtype=float))
-        colour = style.METHODS.get(name, style.BLUE)
+        colour = style.METHOD_COLOURS.get(name, style.BLUE)
         # a fixed spread, so that dots do not overlap
         height = row + 0.22 * np.sin(2.4 * np.arange(len(dots)))
         axes.plot(dots, height, ".", color=colour, alpha=0.6, markersize=5)
@@ -356,7 +356,7 @@ def draw_trials(axes: Axes, means: Mapping[str, ArrayLike]) -> None:
         rates = np.asarray(values, dtype=float)
         order = np.argsort(rates)
         across = place + 0.7 * (np.arange(len(rates)) / max(len(rates) - 1, 1) - 0.5)
-        colour = style.METHODS.get(name, style.BLUE)
+        colour = style.METHOD_COLOURS.get(name, style.BLUE)
         axes.plot(across, rates[order], ".", color=colour, markersize=8)
         first = int(np.flatnonzero(order == 0)[0])
         axes.plot(across[first], rates[0], "x", color=style.INK, markersize=9)
@@ -441,7 +441,7 @@ def plot_weight_changes(results: Results) -> Figure:
             str(case["sum"]): results.values(layer, k)
             for k, case in enumerate(results.experiment.cases)
         }
-        draw_weight_changes(panel, ways, colour=style.METHODS["nnql"])
+        draw_weight_changes(panel, ways, colour=style.METHOD_COLOURS["nnql"])
         panel.set(title=layer)
     return figure
 
@@ -471,7 +471,7 @@ def plot_speeds(results: Results) -> Figure:
         own = [k for k, case in enumerate(cases) if case["method"] == name]
         speeds = [float(cases[k]["speed"]) for k in own]
         runs = np.array([results.values("success", k) for k in own])
-        colour = style.METHODS.get(name, style.BLUE)
+        colour = style.METHOD_COLOURS.get(name, style.BLUE)
         axes.fill_between(
             speeds,
             runs.min(axis=1),
@@ -526,7 +526,7 @@ def plot_variations(results: Results) -> Figure:
     for k in range(len(cases)):
         summary = results.summary("success", k)
         axes.plot([summary.low, summary.high], [k, k], color=style.INK, linewidth=2)
-        axes.plot(summary.mean, k, "o", color=style.METHODS["nnql"])
+        axes.plot(summary.mean, k, "o", color=style.METHOD_COLOURS["nnql"])
     labels = [f"{case['factor']}: {case['level']}" for case in cases]
     axes.set(
         yticks=range(len(cases)),

@@ -259,7 +259,7 @@ def draw_outcomes(axes: Axes, rates: dict[str, tuple[float, float, float]]) -> N
     ['straight']
     """
     for row, (label, (rate, low, high)) in enumerate(rates.items()):
-        colour = style.METHODS.get(label, style.BLUE)
+        colour = style.METHOD_COLOURS.get(label, style.BLUE)
         axes.barh(row, 100 * rate, color=colour, height=0.6)
         axes.plot([100 * low, 100 * high], [row, row], color=style.INK, linewidth=2)
         axes.annotate(

@@ -70,6 +70,6 @@ def line_style(line: str | float) -> tuple[str, str]:
     ('DAgger', 'learned alone', 'learned among 8')
     """
     if isinstance(line, str):
-        return display_name(line), style.METHODS.get(line, style.INK)
+        return display_name(line), style.METHOD_COLOURS.get(line, style.INK)
     name = "learned alone" if line == 1 else f"learned among {line}"
     return name, LEARNERS.get(int(line), style.INK)

@@ -40,7 +40,7 @@ from .world_files import format_world, load_worlds, parse_world, save_worlds
 from .worlds import (
     Worlds,
     clearance,
-    concatenate,
+    concatenate_worlds,
     draw_worlds,
     make_world,
     random_worlds,
@@ -70,7 +70,7 @@ __all__ = [
     "Transition",
     "Worlds",
     "clearance",
-    "concatenate",
+    "concatenate_worlds",
     "crossing_worlds",
     "degree_of_danger",
     "draw_worlds",

@@ -586,7 +586,7 @@ def make_world(
     )
 
 
-def concatenate(batches: Sequence[Worlds]) -> Worlds:
+def concatenate_worlds(batches: Sequence[Worlds]) -> Worlds:
     """Join several batches of worlds of the same map size into one.
 
     Parameters
@@ -605,9 +605,9 @@ def concatenate(batches: Sequence[Worlds]) -> Worlds:
 
     Examples
     --------
-    >>> from robonav.robot import concatenate, random_worlds
+    >>> from robonav.robot import concatenate_worlds, random_worlds
     >>> easy, hard = random_worlds(2, 5, seed=1), random_worlds(3, 20, seed=1)
-    >>> concatenate([easy, hard]).kinds.shape
+    >>> concatenate_worlds([easy, hard]).kinds.shape
     (5, 20)
     """
     if len(batches) == 0:

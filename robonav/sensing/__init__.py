@@ -5,7 +5,12 @@ from .convolution import (
     picture_convolution,
     weights_of_layers,
 )
-from .dagger import Examples, dagger_with_sensor, labelled_examples, randomised
+from .dagger import (
+    Examples,
+    dagger_with_sensor,
+    labelled_examples,
+    randomised_simulators,
+)
 from .networks import (
     SensorNetwork,
     fully_connected,
@@ -28,7 +33,7 @@ __all__ = [
     "picture_around",
     "picture_convolution",
     "picture_network",
-    "randomised",
+    "randomised_simulators",
     "ring_network",
     "sector_ranges",
     "shapes_of",

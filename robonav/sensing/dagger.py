@@ -120,7 +120,7 @@ def dagger_with_sensor(
         known = seen if known is None else joined(known, seen)  # aggregate
         for group in optimiser.param_groups:
             group["lr"] = gradient_step * (1 - i / len(rounds))
-        descend(policy, known, optimiser, steps=steps, batch=batch, rng=rng)
+        train_network(policy, known, optimiser, steps=steps, batch=batch, rng=rng)
         if progress is not None:
             progress(i + 1, len(rounds))
     return replace(policy)
@@ -202,7 +202,7 @@ def joined(*parts: Examples) -> Examples:
     )
 
 
-def descend(
+def train_network(
     policy: SensorPolicy,
     known: Examples,
     optimiser: torch.optim.Optimizer,
@@ -221,7 +221,7 @@ def descend(
         optimiser.step()
 
 
-def randomised(
+def randomised_simulators(
     worlds: Sequence[Worlds],
     *,
     noise: float,
@@ -254,9 +254,9 @@ def randomised(
     Examples
     --------
     >>> from robonav.robot import random_worlds
-    >>> from robonav.sensing import randomised
+    >>> from robonav.sensing import randomised_simulators
     >>> worlds = [random_worlds(5, seed=seed) for seed in range(3)]
-    >>> [round(simulator.noise, 2) for simulator in randomised(worlds, noise=1.0, slip=0.4, seed=0)]
+    >>> [round(simulator.noise, 2) for simulator in randomised_simulators(worlds, noise=1.0, slip=0.4, seed=0)]
     [0.64, 0.04, 0.81]
     """
     drawn = np.random.default_rng(seed).random((len(worlds), 2))

@@ -81,7 +81,7 @@ class ReplaySGDWithCallback(ReplaySGD):
 
     callback: Callback = lambda _network, _decisions, _rewards: None
 
-    def descend(
+    def improve(
         self,
         network: Network,
         decisions: Decisions,
@@ -89,7 +89,7 @@ class ReplaySGDWithCallback(ReplaySGD):
         fraction: float,
         rng: np.random.Generator,
     ) -> Improved:
-        improved = super().descend(network, decisions, rewards, fraction, rng)
+        improved = super().improve(network, decisions, rewards, fraction, rng)
         self.callback(improved.network, decisions, rewards)
         return improved
 

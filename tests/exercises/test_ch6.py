@@ -269,7 +269,7 @@ def test_clipped_with_large_outputs(answer, rng):
 
 def pockets(rng, n, depths):
     """Worlds with a pocket across the way, three walls that open towards the robot, in any direction."""
-    from robonav.robot import concatenate, make_world
+    from robonav.robot import concatenate_worlds, make_world
 
     worlds = []
     for _ in range(n):
@@ -284,7 +284,7 @@ def pockets(rng, n, depths):
             walls.append((*arm, depth, 2.0, np.degrees(turn)))
         ends = {"start": middle - 34 * along, "target": middle + 34 * along}
         worlds.append(make_world(rectangles=walls, **ends))
-    return concatenate(worlds)
+    return concatenate_worlds(worlds)
 
 
 class Remembering:

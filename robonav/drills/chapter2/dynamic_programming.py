@@ -114,7 +114,7 @@ def improved_cell(rng: Rng) -> Question | None:
     model = grid.mdp(discount=discount)
     best = mdp.policy_iteration(model)
     q = model.action_values(best.values)
-    greedy = mdp.greedy_actions(q)
+    greedy = mdp.greedy_action_mask(q)
     asked = np.flatnonzero(~model.terminal)
     changed = int(rng.choice(asked))
     policy = best.policy.copy()

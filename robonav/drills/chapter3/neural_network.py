@@ -136,7 +136,7 @@ def _iteration(
     _, hidden, output = (float(a.squeeze()) for a in network.activations(x))
     gradient = networks.cross_entropy_gradient(network, x, y)
     slopes = [float(slope.squeeze()) for slope in gradient.weights]
-    after = networks.descend(network, gradient, step)
+    after = networks.gradient_descent_step(network, gradient, step)
     kept = networks.Network(after.weights, network.biases)  # there are no biases
     new = [float(weight.squeeze()) for weight in kept.weights]
     errors = [float(error.squeeze()) for error in gradient.biases]

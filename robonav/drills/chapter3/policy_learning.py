@@ -65,7 +65,7 @@ def accuracy_of_two(rng: Rng) -> Question:
     chosen, labels = _labelled(counts)
     forward = np.tile(np.eye(3)[0], (len(labels), 1))
     accuracy, always = (
-        networks.accuracy(SAYS_ITS_INPUT, actions, labels)
+        networks.network_accuracy(SAYS_ITS_INPUT, actions, labels)
         for actions in (chosen, forward)
     )
     total = int(counts.sum())
@@ -110,7 +110,7 @@ def least_recalled(rng: Rng) -> Question | None:
     chosen, labels = _labelled(counts)
     recall = np.array(
         [
-            networks.accuracy(SAYS_ITS_INPUT, chosen[rows], labels[rows])
+            networks.network_accuracy(SAYS_ITS_INPUT, chosen[rows], labels[rows])
             for rows in labels.T.astype(bool)
         ]
     )

@@ -204,7 +204,7 @@ def output_weights(rng: Rng) -> Question:
     weights = np.array([[1.0, -1.0]])
     bias = np.log(q / (1 - q)) - weights @ hidden  # so that the output is q
     before = Network((weights,), (bias,))
-    after = nnql.stochastic_gradient_descent(
+    after = nnql.train_on_pairs(
         before, [hidden], [np.array([target])], step, passes=1, tolerance=0.0
     )
     change = np.append(after.weights[0] - before.weights[0], after.biases[0] - bias)

@@ -21,7 +21,7 @@ from robonav.lfd import (
     summarise_dataset,
 )
 from robonav.lfd.dagger import TEMPERATURE
-from robonav.networks import accuracy
+from robonav.networks import network_accuracy
 from robonav.robot import Policy, Worlds, navigate, neighbour_slip, random_worlds
 from robonav.robot.encoding import TARGET_ENCODINGS
 
@@ -75,7 +75,8 @@ def with_iterations(case: Case, seed: int, scale: str) -> Numbers:
     rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
     return {
         "accuracy": 100 * trained.accuracies[done],
-        "accuracy, other demonstrations": 100 * accuracy(policy.network, *others),
+        "accuracy, other demonstrations": 100
+        * network_accuracy(policy.network, *others),
         "cost": trained.costs[done],
         "success": rates["success"],
     }

@@ -118,7 +118,7 @@ def clearer_side(seed: int, length: float, obstacles: int, speed: float) -> Poli
     return turn_to_clearer_side
 
 
-METHODS: dict[str, Callable[[int, float, int, float], Policy]] = {
+POLICIES: dict[str, Callable[[int, float, int, float], Policy]] = {
     "kept-policy": partial(same_policy, method="nirl"),
     "kept-clone": partial(same_policy, method="lfd"),
     "learned-reward-there": learned_reward,
@@ -133,7 +133,7 @@ METHODS: dict[str, Callable[[int, float, int, float], Policy]] = {
 def elsewhere(case: Case, seed: int, scale: str) -> Numbers:
     """Test one run of one method in maps of another density, or at another speed."""
     obstacles, speed = int(case["obstacles"]), float(case["speed"])
-    method = METHODS[str(case["method"])]
+    method = POLICIES[str(case["method"])]
     policy = method(seed, SHORTENED[scale], obstacles, speed)
     return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale, obstacles), speed)
 
@@ -179,7 +179,7 @@ TRANSFER = Experiment(
     cases=[
         {"obstacles": obstacles, "speed": speed, "method": method}
         for obstacles, speed in PLACES
-        for method in METHODS
+        for method in POLICIES
     ],
     run=elsewhere,
     seeds={"quick": 1, "thesis": 10},

@@ -18,7 +18,7 @@ from robonav.sensing import (
     fully_connected,
     labelled_examples,
     picture_network,
-    randomised,
+    randomised_simulators,
     ring_network,
 )
 
@@ -56,7 +56,7 @@ def trained_policy(
     first = TRAINING["seed"] + 100 * seed
     rounds = range(TRAINING["rounds"][scale])
     worlds = [SETUP.worlds(TRAINING["worlds"][scale], first + r) for r in rounds]
-    simulators = randomised(
+    simulators = randomised_simulators(
         worlds,
         noise=noise,
         slip=slip,

@@ -43,7 +43,7 @@ class BatchedNetworks:
         passes: int,
         tolerance: float,
     ) -> None:
-        """Stochastic gradient descent of the networks ``rows`` (K,), as in :func:`stochastic_gradient_descent`.
+        """Stochastic gradient descent of the networks ``rows`` (K,), as in :func:`robonav.nnql.train_on_pairs`.
 
         Network ``rows[k]`` goes through the pairs ``first[k]`` to ``last[k] - 1`` of its own: rows of ``x`` (S, L, n)
         and ``y`` (S, L, A), with the step ``gradient_step[k]``. It does so at most ``passes`` times, and stops when the

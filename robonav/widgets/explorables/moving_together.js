@@ -5,7 +5,7 @@ export function trainedOn(packed, states, { action, target, steps }) {
   const network = flattened(networks(packed)());
   const outputs = () => states.map((state) => [...propagate(network, state).activations.at(-1)]);
   const before = outputs();
-  const learn = stochasticGradientDescent(network);
+  const learn = trainOnPairs(network);
   for (let k = 0; k < steps; k += 1) {
     const wanted = Float64Array.from(propagate(network, states[0]).activations.at(-1));
     wanted[action] = target;

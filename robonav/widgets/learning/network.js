@@ -183,12 +183,12 @@ export function* gradientDescent(cost, parameters, { gradientStep, iterations })
 
 /**
  * A function that trains a network, in place, on pairs of input and target, one pair at a time, as
- * `robonav.nnql.stochastic_gradient_descent`: at most so many passes, until the mean cost changes by less than a tolerance.
+ * `robonav.nnql.train_on_pairs`: at most so many passes, until the mean cost changes by less than a tolerance.
  * @param {FlatNetwork} network
  * @returns {(inputs: ArrayLike<number>[], targets: ArrayLike<number>[], step: number, passes: number, tolerance: number) => number}
  *   gives the mean cost of the last pass
  */
-export function stochasticGradientDescent(network) {
+export function trainOnPairs(network) {
   const place = scratch(network.sizes);
   return (inputs, targets, step, passes, tolerance) => {
     let previous = Infinity;

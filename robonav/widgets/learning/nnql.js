@@ -138,7 +138,7 @@ export function weightChanges(before, after) {
 /** NNQL, or with the latest pair alone its online form. @param {LearningSettings} settings @returns {Learner} */
 function nnqlLearner(settings, network) {
   const { discount, passes, tolerance } = settings;
-  const [descend, rescale] = [stochasticGradientDescent(network), RESCALE[settings.rescale]];
+  const [descend, rescale] = [trainOnPairs(network), RESCALE[settings.rescale]];
   let [inputs, targets, alpha, sigma, updates, beyond] = [[], [], 0, 0, 0, 0];
   const values = (state) => propagate(network, state).activations.at(-1);
   return {

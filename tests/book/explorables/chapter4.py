@@ -57,9 +57,7 @@ def moving_together(shown: Shown) -> None:
     for _ in range(steps):
         wanted = network.forward(states[0])
         wanted[action] = target
-        network = nnql.stochastic_gradient_descent(
-            network, [states[0]], [wanted], 1.0, 1, 0.0
-        )
+        network = nnql.train_on_pairs(network, [states[0]], [wanted], 1.0, 1, 0.0)
     before, after = first.forward(states), network.forward(states)
     change = after - before
     shown.says(

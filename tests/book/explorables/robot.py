@@ -9,7 +9,7 @@ from robonav.robot import (
     Navigation,
     Reflex,
     Sensing,
-    concatenate,
+    concatenate_worlds,
     degree_of_danger,
     make_world,
     navigate,
@@ -93,7 +93,7 @@ def reflex_map(shown: Shown) -> None:
 def speed_and_sight(shown: Shown) -> None:
     speed = shown.number("speed")
     near = shown.number("turns when something ahead is nearer than")
-    worlds = concatenate(
+    worlds = concatenate_worlds(
         [
             make_world([(50, 50, 4)], start=(10 + k * speed / 40, 50), target=(90, 50))
             for k in range(40)

@@ -24,7 +24,7 @@ from robonav.robot import (
     Outcome,
     Reflex,
     Simulator,
-    concatenate,
+    concatenate_worlds,
     make_world,
     navigate_in,
     obstacle_tracks,
@@ -126,7 +126,7 @@ def test_range_finders_tell_borders_from_obstacles_and_directions_are_exact(
 
 def test_noise_moves_what_is_seen_and_nothing_else():
     worlds = random_worlds(30, obstacles=20, seed=8)
-    worlds = concatenate([worlds, worlds])
+    worlds = concatenate_worlds([worlds, worlds])
     quiet, noisy = BodySimulator(worlds), BodySimulator(worlds, body=Body(noise=0.3))
     for simulator in (quiet, noisy):
         simulator.poses[:, :2] = 40.0
@@ -154,7 +154,9 @@ def test_moving_obstacles_move_as_in_the_simulator_and_the_range_finders_see_the
 def test_an_episode_ends_as_in_the_simulator():
     wall = make_world(circles=[(50, 60, 3)], start=(50, 50), target=(50, 90))
     near = make_world(start=(50, 50), target=(50, 57))
-    simulator = BodySimulator(concatenate([wall, near.with_slots(1)]), max_steps=9)
+    simulator = BodySimulator(
+        concatenate_worlds([wall, near.with_slots(1)]), max_steps=9
+    )
     while (simulator.outcome == Outcome.RUNNING).any():
         simulator.step(np.zeros(2, dtype=np.int64))
     assert simulator.outcome.tolist() == [Outcome.COLLIDED, Outcome.ARRIVED]

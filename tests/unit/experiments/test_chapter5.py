@@ -227,7 +227,7 @@ def test_a_comparison_has_its_controls_beside_it():
         "kept-clone",
         "zero-reward-there",
         "random-reward-there",
-    } <= set(transfer.METHODS)
+    } <= set(transfer.POLICIES)
 
 
 def test_ends_without_a_bonus_are_held_against_the_same_runs_with_one():

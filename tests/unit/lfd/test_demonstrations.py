@@ -18,7 +18,7 @@ from robonav.robot import (
     Action,
     Reflex,
     Simulator,
-    concatenate,
+    concatenate_worlds,
     make_world,
     neighbour_slip,
     random_worlds,
@@ -231,7 +231,7 @@ def test_inconsistent_demonstrations_are_errors(demonstrations):
 
 def test_sensing_is_raw(demonstrations):
     rows = np.flatnonzero(demonstrations.trajectory == 2)
-    worlds = concatenate([demonstrations.worlds[2]] * len(rows))
+    worlds = concatenate_worlds([demonstrations.worlds[2]] * len(rows))
     assert np.array_equal(
         sense(worlds, demonstrations.poses[rows]).ranges,
         demonstrations.sensing.ranges[rows],
@@ -244,7 +244,7 @@ def test_a_world_without_a_way_is_named():
         ValueError,
         match=r"worlds\[1\] must have a path from start to target at 2 m/s, and has none",
     ):
-        demonstrate(concatenate([make_world(), walled]))
+        demonstrate(concatenate_worlds([make_world(), walled]))
 
 
 @pytest.mark.parametrize(

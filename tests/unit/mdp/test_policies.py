@@ -14,7 +14,7 @@ from robonav.mdp import (
     FiniteMDP,
     exponential_decay,
     four_by_three,
-    greedy_actions,
+    greedy_action_mask,
     greedy_mixture,
     harmonic_decay,
     linear_decay,
@@ -64,7 +64,7 @@ def test_what_is_no_policy_is_refused(policy, error, sentence):
 def test_greedy_actions_are_those_within_the_tolerance(seed):
     q = np.random.default_rng(seed).normal(size=(5, 4)).round(1)
     for tolerance in (0, 0.25):
-        best = greedy_actions(q, tolerance=tolerance)
+        best = greedy_action_mask(q, tolerance=tolerance)
         for row, flags in zip(q, best, strict=True):
             assert flags.tolist() == [max(row) - value <= tolerance for value in row]
     mixture = greedy_mixture(q)
@@ -75,12 +75,14 @@ def test_greedy_actions_are_those_within_the_tolerance(seed):
 
 
 def test_what_is_no_rounding_breaks_a_tie():
-    assert greedy_actions([[1.0, 1.0 - 1e-6]]).tolist() == [[True, False]]
+    assert greedy_action_mask([[1.0, 1.0 - 1e-6]]).tolist() == [[True, False]]
 
 
 def test_rounding_does_not_break_a_tie():
-    assert greedy_actions([[0.1 + 0.2, 0.3]]).all()
-    assert greedy_actions([[0.1 + 0.2, 0.3]], tolerance=0).tolist() == [[True, False]]
+    assert greedy_action_mask([[0.1 + 0.2, 0.3]]).all()
+    assert greedy_action_mask([[0.1 + 0.2, 0.3]], tolerance=0).tolist() == [
+        [True, False]
+    ]
 
 
 def softmax_in(dtype, rows, rng):

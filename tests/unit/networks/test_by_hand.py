@@ -8,7 +8,7 @@ import pytest
 from robonav.networks import (
     Network,
     cross_entropy_gradient,
-    descend,
+    gradient_descent_step,
     sigmoid_slope,
     squared_error_cost,
     squared_error_gradient,
@@ -59,5 +59,5 @@ def test_errors_of_the_cross_entropy():
 
 
 def test_one_step_lowers_the_cost():
-    stepped = descend(SMALL, squared_error_gradient(SMALL, X, Y), 1.0)
+    stepped = gradient_descent_step(SMALL, squared_error_gradient(SMALL, X, Y), 1.0)
     assert squared_error_cost(stepped, X, Y) < 0.29

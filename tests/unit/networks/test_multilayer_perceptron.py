@@ -12,8 +12,8 @@ from robonav.networks import (
     CROSS_ENTROPY,
     Network,
     batch_gradient_descent,
-    descend,
     gradient_descent,
+    gradient_descent_step,
     propagate,
     random_network,
     sigmoid,
@@ -246,7 +246,7 @@ def test_stochastic_descent_goes_once_through_the_examples_in_an_epoch(examples)
         order = rng.permutation(7)
         for batch in (order[:3], order[3:6], order[6:]):
             gradient = squared_error_gradient(expected, x[batch], y[batch])
-            expected = descend(expected, gradient, 0.5)
+            expected = gradient_descent_step(expected, gradient, 0.5)
     same(trained, expected)
 
 

@@ -8,7 +8,7 @@ from scipy.optimize import minimize
 from robonav.networks.costs import CROSS_ENTROPY, SQUARED_ERROR
 from robonav.networks.multilayer_perceptron import Network, random_network
 from robonav.networks.optimisers import fit, gradient_descent, lbfgs, one_hot
-from robonav.networks.training_history import accuracy
+from robonav.networks.training_history import network_accuracy
 
 
 def examples(m=200, inputs=11, actions=5, seed=0):
@@ -162,7 +162,7 @@ def test_history_tells_cost_and_accuracy_of_every_iteration():
         assert training.costs[row] == pytest.approx(
             CROSS_ENTROPY.cost(network, x, y, regularisation=1.0)
         )
-        assert training.accuracies[row] == accuracy(network, x, y)
+        assert training.accuracies[row] == network_accuracy(network, x, y)
     np.testing.assert_array_equal(flat(training.networks[-1]), flat(training.network))
     np.testing.assert_array_equal(
         flat(training.networks[0]), flat(random_network((11, 8, 5), seed=0))
@@ -188,14 +188,15 @@ def test_learning_beats_the_commonest_answer():
     x, y = examples(600)
     training = fit(x[:400], y[:400], regularisation=0.1)
     assert (
-        accuracy(training.network, x[400:], y[400:]) > y[400:].mean(axis=0).max() + 0.1
+        network_accuracy(training.network, x[400:], y[400:])
+        > y[400:].mean(axis=0).max() + 0.1
     )
 
 
 def test_accuracy_of_one_output_is_yes_above_one_half():
     yes_above_two = Network((np.array([[1.0]]),), (np.array([-2.0]),))
     assert (
-        accuracy(
+        network_accuracy(
             yes_above_two, [[1.9], [2.1], [4.0], [0.0]], [[0.0], [1.0], [0.0], [1.0]]
         )
         == 0.5

@@ -191,7 +191,7 @@ def test_it_finds_the_values_of_a_chain():
         discount=0.5, learning_rate=1.0, gradient_step=(2.0, 2.0), n_samples=20_000
     )
     rewards = decision_rewards(theta, steps)
-    network = improve.descend(
+    network = improve.improve(
         random_network((3, 6, 1), seed=0), steps, rewards, 0.0, np.random.default_rng(0)
     ).network
     third = 0.5 * 1 + 0.5 * 1
@@ -211,9 +211,9 @@ def test_network_trains_on_the_decisions_of_the_last_iterations(terrain, improve
     class Watched:
         replay = improver.replay
 
-        def descend(self, network, decisions, *rest):
+        def improve(self, network, decisions, *rest):
             seen.append(decisions)
-            return improver.descend(network, decisions, *rest)
+            return improver.improve(network, decisions, *rest)
 
     task = TabularTask(terrain.task)
     demonstrations = task.demonstrate(terrain.expert, 5, seed=1)
@@ -229,8 +229,8 @@ def test_the_step_to_the_letter_is_a_gradient_step():
     network = random_network((3, 5, 4), seed=1)
     improver = FullBatchDescent(gradient_step=0.1)
     rewards = decision_rewards(theta, steps)
-    stepped, cost = improver.descend(network, steps, rewards, 0.0, RNG)
-    again, lower = improver.descend(stepped, steps, rewards, 0.0, RNG)
+    stepped, cost = improver.improve(network, steps, rewards, 0.0, RNG)
+    again, lower = improver.improve(stepped, steps, rewards, 0.0, RNG)
     assert lower < cost
     outputs = network.forward(steps.inputs)
     q = outputs[np.arange(12), steps.actions]
@@ -254,7 +254,7 @@ def test_full_batch_descent_minimises_the_cost_for_targets_that_stay():
 
     def after(n_steps):
         improver = FullBatchDescent(n_steps, gradient_step=2.0)
-        return improver.descend(network, steps, rewards, 0.0, RNG)
+        return improver.improve(network, steps, rewards, 0.0, RNG)
 
     rows = np.arange(12), steps.actions
     q = network.forward(steps.inputs)[rows]
@@ -494,9 +494,9 @@ def test_it_stops_before_it_trains(terrain):
     trained = []
 
     class Watched(ReplaySGD):
-        def descend(self, *arguments):
+        def improve(self, *arguments):
             trained.append(arguments)
-            return super().descend(*arguments)
+            return super().improve(*arguments)
 
     found = nirl(
         demonstrations,

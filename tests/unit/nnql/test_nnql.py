@@ -18,8 +18,8 @@ from robonav.nnql import (
     nnql,
     online,
     q_network,
-    stochastic_gradient_descent,
     train,
+    train_on_pairs,
 )
 from robonav.robot import Outcome
 
@@ -161,9 +161,9 @@ def test_greedy_navigation_of_the_robot():
 def test_descent_stops_when_the_cost_settles():
     network, state = random_network((4, 8, 2), seed=0), np.eye(4)[0]
     pairs = [state], [np.array([0.2, 0.9])]
-    once = stochastic_gradient_descent(network, *pairs, 0.1, 1, 0.0)
-    settled = stochastic_gradient_descent(network, *pairs, 0.1, 50, 100.0)
-    twice = stochastic_gradient_descent(once, *pairs, 0.1, 1, 0.0)
+    once = train_on_pairs(network, *pairs, 0.1, 1, 0.0)
+    settled = train_on_pairs(network, *pairs, 0.1, 50, 100.0)
+    twice = train_on_pairs(once, *pairs, 0.1, 1, 0.0)
     np.testing.assert_array_equal(settled.weights[0], twice.weights[0])
 
 

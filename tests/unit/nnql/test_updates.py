@@ -17,7 +17,7 @@ from robonav.nnql import (
     nfq_targets,
     q_targets,
     shift,
-    stochastic_gradient_descent,
+    train_on_pairs,
 )
 
 q_values = arrays(float, (6, 5), elements=st.floats(-3, 3))
@@ -127,7 +127,7 @@ def test_the_step_that_the_page_computes_by_hand():
     np.testing.assert_allclose(q, [0.614, 0.386], atol=5e-4)
     target = q_targets(q, 0, 0.6, network.forward(next_state).max(), 0.5, 0.6)
     np.testing.assert_allclose(shift(target), [0.791, 0.386], atol=5e-4)
-    trained = stochastic_gradient_descent(network, [state], [target], 1.0, 1, 0)
+    trained = train_on_pairs(network, [state], [target], 1.0, 1, 0)
     np.testing.assert_allclose(trained.weights[1][0], [1.130, -0.952], atol=5e-4)
     np.testing.assert_allclose(trained.biases[1], [0.177, 0], atol=5e-4)
     np.testing.assert_allclose(trained.weights[0][:, 0], [1.035, -1.035], atol=5e-4)

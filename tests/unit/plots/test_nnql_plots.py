@@ -43,7 +43,7 @@ def test_learning_curves_have_mean_and_band(axes):
     draw.draw_learning(axes, {"nnql": [[10, 20], [20, 30]], "online": [[1, 2]]})
     np.testing.assert_array_equal(axes.lines[0].get_xdata(), [30, 60])
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), [15, 25])
-    assert axes.lines[0].get_color() == style.METHODS["nnql"]
+    assert axes.lines[0].get_color() == style.METHOD_COLOURS["nnql"]
 
 
 def test_rates_show_every_seed_their_mean_and_the_thesis(axes):

@@ -11,7 +11,7 @@ from scipy import ndimage
 from robonav.robot import (
     Worlds,
     clearance,
-    concatenate,
+    concatenate_worlds,
     format_world,
     load_worlds,
     make_world,
@@ -118,7 +118,7 @@ def test_going_straight_is_the_yardstick():
 
 def test_picking_and_joining():
     a, b = random_worlds(4, 6, seed=1), random_worlds(3, 9, seed=2)
-    both = concatenate([a, b])
+    both = concatenate_worlds([a, b])
     assert len(both) == 7
     assert both[:4].kinds.shape == (4, 9)
     assert both[4:].digest() == b.digest()
@@ -354,7 +354,7 @@ def test_values_are_not_bent_into_shape(change, message):
         (lambda: make_world(size=10**400), ValueError, "size must be finite"),
         (lambda: parse_world(5), TypeError, "text must be str"),
         (lambda: navigate(straight, "x"), TypeError, "worlds must be Worlds"),
-        (lambda: concatenate(["x"]), TypeError, "batches must be Worlds"),
+        (lambda: concatenate_worlds(["x"]), TypeError, "batches must be Worlds"),
         (lambda: save_worlds("nowhere", None), TypeError, "worlds must be Worlds"),
         (lambda: random_worlds(1, seed=0)[(0, 1)], TypeError, "worlds are picked by"),
         (lambda: random_worlds(10**30, seed=0), ValueError, "n must be at most"),

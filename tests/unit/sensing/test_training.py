@@ -24,7 +24,7 @@ from robonav.sensing import (
     fully_connected,
     labelled_examples,
     picture_network,
-    randomised,
+    randomised_simulators,
     ring_network,
 )
 
@@ -99,7 +99,7 @@ def test_readings_are_those_of_the_states_in_which_the_robot_was_asked():
 
 def test_uncertainties_are_drawn_within_their_bounds():
     worlds = [random_worlds(2, seed=seed) for seed in range(30)]
-    made = randomised(worlds, noise=0.8, slip=0.4, seed=3)
+    made = randomised_simulators(worlds, noise=0.8, slip=0.4, seed=3)
     noise = np.array([simulator.noise for simulator in made])
     slip = np.array([1 - simulator.slip[0, 0] for simulator in made])
     assert 0 <= noise.min() < 0.1
@@ -107,14 +107,14 @@ def test_uncertainties_are_drawn_within_their_bounds():
     assert 0 <= slip.min() < 0.05
     assert 0.35 < slip.max() <= 0.4
     assert abs(np.corrcoef(noise, slip)[0, 1]) < 0.5
-    again = randomised(worlds, noise=0.8, slip=0.4, seed=3)
+    again = randomised_simulators(worlds, noise=0.8, slip=0.4, seed=3)
     assert [simulator.noise for simulator in again] == noise.tolist()
     np.testing.assert_allclose(made[4].slip, neighbour_slip(slip[4]))
 
 
 def test_without_uncertainty_nothing_is_off():
     worlds = [random_worlds(5, 10, seed=1)]
-    (made,) = randomised(worlds, noise=0, slip=0, seed=0)
+    (made,) = randomised_simulators(worlds, noise=0, slip=0, seed=0)
     assert made.noise == 0
     assert np.array_equal(made.slip, np.eye(6))
 

@@ -23,7 +23,7 @@ from robonav.robot import (
     Action,
     Reflex,
     Simulator,
-    concatenate,
+    concatenate_worlds,
     degree_of_danger,
     make_world,
     navigate,
@@ -466,7 +466,7 @@ def test_page_of_the_robot_says_in_how_many_places_the_policy_decides():
 def test_episodes_past_an_obstacle_end_as_in_python(compute, speed, near):
     body = "return page.episodes(given.world, { speed: data.speed, turnAt: data.near }).map(({ outcome }) => outcome);"
     seen = compute("speed_and_sight", body, speed=speed, near=near)
-    worlds = concatenate(
+    worlds = concatenate_worlds(
         [
             make_world(
                 circles=[(50, 50, 4)], start=(10 + k * speed / 40, 50), target=(90, 50)
@@ -834,7 +834,7 @@ def test_one_pair_moves_other_values(compute):
     for _ in range(20):
         wanted = network.forward(np.array(states[0]))
         wanted[1] = 0.9
-        network = nnql.stochastic_gradient_descent(
+        network = nnql.train_on_pairs(
             network, [np.array(states[0])], [wanted], 1.0, 1, 0.0
         )
     assert seen["after"] == pytest.approx(network.forward(np.array(states)), abs=1e-12)
@@ -950,7 +950,7 @@ def places_among(world, n, seed):
     poses = np.column_stack(
         [rng.uniform(2, world.size - 2, (n, 2)), rng.uniform(-np.pi, np.pi, n)]
     )
-    ranges = sense(concatenate([world] * n), poses).ranges
+    ranges = sense(concatenate_worlds([world] * n), poses).ranges
     return poses[ranges.min(axis=1) >= 1]
 
 
@@ -977,7 +977,7 @@ def test_forces_are_those_of_the_package(compute):
             world=page_world(world), poses=poses.tolist(), settings=settings,
         )
     )  # fmt: skip
-    sensing = sense(concatenate([world] * len(poses)), poses)
+    sensing = sense(concatenate_worlds([world] * len(poses)), poses)
     attraction, repulsions = planners.potential_field(sensing, **settings)
     np.testing.assert_allclose(
         seen[:, :2], attraction + repulsions.sum(axis=1), atol=1e-9
@@ -1013,7 +1013,7 @@ def test_histograms_and_directions_are_those_of_the_package(compute):
     const settings = { clearance: 1.4, threshold: 0.4, halfWidth: 0.1, wide: 12, keep: 0.3 };
     return data.poses.map(([x, y, heading]) => page.lookAround(given.world, { x, y, heading }, settings));"""
     seen = compute("polar_histogram_openings", body, poses=poses.tolist())
-    sensing = sense(concatenate([world] * len(poses)), poses)
+    sensing = sense(concatenate_worlds([world] * len(poses)), poses)
     histogram = planners.polar_histogram(sensing.ranges, clearance=1.4, half_width=0.1)
     np.testing.assert_allclose([one["histogram"] for one in seen], histogram, atol=1e-9)
     bearings = planners.vector_field_histogram(
@@ -1056,7 +1056,7 @@ def test_rings_and_pictures_are_those_of_the_package(compute, sectors):
       return [page.ringRanges(given.world, pose, data.sectors), page.coveredCells(given.world, pose, 32)];
     });"""
     found = compute("ring_and_picture", body, poses=poses.tolist(), sectors=sectors)
-    simulator = Simulator(concatenate([world] * len(poses)))
+    simulator = Simulator(concatenate_worlds([world] * len(poses)))
     simulator.poses[:] = poses
     everyone = np.arange(len(poses))
     ranges = Ring(sectors).ranges(simulator, everyone)

@@ -8,7 +8,7 @@ import pytest
 from robonav import archive
 from robonav.lfd import demonstrate, load_demonstrations, save_demonstrations
 from robonav.networks import Weights, load_weights, random_network, save_weights
-from robonav.robot import Encoder, concatenate, random_worlds
+from robonav.robot import Encoder, concatenate_worlds, random_worlds
 from robonav.widgets.simulator import page_world
 
 FILES = (
@@ -48,7 +48,7 @@ def encoded(path):
 def demonstrations():
     """Drives in worlds with different numbers of obstacles, one of which moves."""
     parts = [random_worlds(2, 5, 1, seed=3), random_worlds(2, 10, seed=4)]
-    return demonstrate(concatenate([part.with_slots(10) for part in parts]))
+    return demonstrate(concatenate_worlds([part.with_slots(10) for part in parts]))
 
 
 def test_demonstrations_of_python_come_back_to_python(node, demonstrations, tmp_path):

@@ -14,7 +14,7 @@ from robonav.networks import (
     one_hot,
     random_network,
 )
-from robonav.nnql import stochastic_gradient_descent
+from robonav.nnql import train_on_pairs
 from robonav.robot import random_worlds
 
 OBJECTIVES = {"squared-error": SQUARED_ERROR, "cross-entropy": CROSS_ENTROPY}
@@ -108,7 +108,7 @@ def test_stochastic_gradient_descent_gives_pythons_weights(
     body = """return data.tasks.map(({ seed, sizes, x, y }) => {
       const network = page.randomNetwork(sizes, page.defaultRng(seed));
       const [inputs, targets] = [x, y].map((rows) => rows.slice(0, data.pairs).map((row) => Float64Array.from(row)));
-      page.stochasticGradientDescent(network)(inputs, targets, 0.3, data.passes, 0);
+      page.trainOnPairs(network)(inputs, targets, 0.3, data.passes, 0);
       const learned = page.examplesOf(...[x, y].map((rows) => rows.slice(0, data.pairs)));
       const cost = page.costFunction("cross-entropy", sizes, learned);
       const gradient = new Float64Array(network.parameters.length);
@@ -118,7 +118,7 @@ def test_stochastic_gradient_descent_gives_pythons_weights(
     for task, (parameters, cost, gradient) in zip(examples, got, strict=True):
         x, y = np.array(task["x"])[:pairs], np.array(task["y"])[:pairs]
         start = random_network(task["sizes"], seed=task["seed"])
-        trained = stochastic_gradient_descent(start, x, y, 0.3, passes, 0)
+        trained = train_on_pairs(start, x, y, 0.3, passes, 0)
         np.testing.assert_allclose(parameters, flat(trained), rtol=0, atol=1e-9)
         assert cost == pytest.approx(CROSS_ENTROPY.cost(trained, x, y), abs=1e-9)
         expected = flat(CROSS_ENTROPY.gradient(trained, x, y))

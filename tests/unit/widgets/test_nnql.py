@@ -18,8 +18,8 @@ from robonav.nnql import (
     TARGETS,
     q_network,
     reward_row,
-    stochastic_gradient_descent,
     train,
+    train_on_pairs,
 )
 from robonav.nnql.reward import REWARDS
 from robonav.robot import Sensing, navigate, random_worlds
@@ -107,7 +107,7 @@ def first_updates(monkeypatch, settings):
             watch(weights=weights.numpy(), gradient=gradient.numpy(), cost=None)
 
     def watched_descent(network, inputs, targets, *more):
-        network = stochastic_gradient_descent(network, inputs, targets, *more)
+        network = train_on_pairs(network, inputs, targets, *more)
         x, y = np.array(inputs), np.array(targets)
         watch(
             weights=flat(network),
@@ -123,7 +123,7 @@ def first_updates(monkeypatch, settings):
         patch.setattr(module, "softmax_policy", watched_policy)
         patch.setattr(torch.optim, "Adam", WatchedAdam)
         if settings.method != "dqn":
-            patch.setattr(module, "stochastic_gradient_descent", watched_descent)
+            patch.setattr(module, "train_on_pairs", watched_descent)
         with pytest.raises(Enough):
             method(
                 env,

@@ -15,7 +15,7 @@ from robonav.robot import (
     Encoder,
     Reflex,
     Simulator,
-    concatenate,
+    concatenate_worlds,
     navigate,
     obstacle_tracks,
     random_worlds,
@@ -66,7 +66,7 @@ def policies():
 @pytest.fixture(scope="module")
 def thousand():
     """A thousand worlds, standing and moving, and the same for the page."""
-    worlds = concatenate(
+    worlds = concatenate_worlds(
         [random_worlds(500, 20, seed=37), random_worlds(500, 10, 10, seed=38)]
     )
     return worlds, [page_world(world) for world in worlds]
@@ -108,7 +108,7 @@ def test_reflex_of_the_page_knows_by_default_what_pythons_knows(node):
 
 @pytest.mark.parametrize(("target", "policy"), [*policies()])
 def test_networks_drive_in_the_page_as_in_python(node, target, policy):
-    worlds = concatenate(
+    worlds = concatenate_worlds(
         [random_worlds(60, 15, seed=33), random_worlds(40, 8, 8, seed=34)]
     )
     episodes = navigate(policy, worlds, 2.5, 200, record_paths=True)
@@ -183,7 +183,7 @@ def test_chance_drives_in_the_page_as_in_python(node):
     encoder = Encoder()
     network = random_network((encoder.size, 8, 5), seed=2, spread=2.0)
     policy = NetworkPolicy(network, encoder, temperature=1.5)
-    worlds = concatenate(
+    worlds = concatenate_worlds(
         [random_worlds(60, 15, seed=35), random_worlds(40, 8, 8, seed=36)]
     )
     paths, outcomes = Seeded(policy, worlds, 2.0, 200).drive()
