@@ -140,6 +140,13 @@ SHOWN = {
     "not needed": "The reward made the difference in training, but cloning does without one",
     "needed": "The reward made the difference, and cloning does not reach it",
 }
+CONCLUSIONS = {
+    "nothing": "It is no better than its training with the reward 0, so its success shows nothing about its reward.",
+    "not needed": "It is far better than with the reward 0, so its reward made the difference in training. It is no "
+    "better than cloning, so a reward was not needed.",
+    "needed": "It is far better than with the reward 0, so its reward made the difference in training. It is far "
+    "better than cloning, too, so the demonstrations alone do not give this success.",
+}
 
 
 @drill("nirl-comparison", "What do the controls show?")
@@ -171,7 +178,7 @@ def what_controls_show(rng: Rng) -> Question:
             {SHOWN[other]: hints[other] for other in SHOWN if other != kind},
         ),
         f"The reward 0 tells what the training reaches by itself: {zero} %. Cloning tells what the demonstrations give "
-        f"without any reward: {cloning} %. The method has {method} %.",
+        f"without any reward: {cloning} %. The method has {method} %. {CONCLUSIONS[kind]}",
     )
 
 
@@ -213,7 +220,7 @@ MOVES = "What an action leads to is the same as before, so the policy holds as w
 OTHER_MOVES = (
     "An action leads to something else than before, so another policy may be better."
 )
-OTHER_AIM = "The reward cannot express this aim, or cannot be computed."
+OTHER_AIM = "The features do not tell what now counts, or they cannot be computed any more. So the old reward does not describe the task."
 HINTS = {
     BOTH: {REWARD: MOVES, NEITHER: AIM},
     REWARD: {BOTH: OTHER_MOVES, NEITHER: AIM},
