@@ -220,7 +220,10 @@ MOVES = "What an action leads to is the same as before, so the policy holds as w
 OTHER_MOVES = (
     "An action leads to something else than before, so another policy may be better."
 )
-OTHER_AIM = "The features do not tell what now counts, or they cannot be computed any more. So the old reward does not describe the task."
+OTHER_AIM = (
+    "The features do not tell what now counts, or they cannot be computed any more, so the old reward does not "
+    "describe the task."
+)
 HINTS = {
     BOTH: {REWARD: MOVES, NEITHER: AIM},
     REWARD: {BOTH: OTHER_MOVES, NEITHER: AIM},
