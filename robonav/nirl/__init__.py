@@ -93,7 +93,14 @@ from .scirl import (
     structured_classification,
 )
 from .tasks import RobotTask, TabularTask, Task
-from .training import IRLHistory, IRLRecorder, IRLResult, train_under_reward
+from .training import (
+    IRLHistory,
+    IRLRecorder,
+    IRLResult,
+    Iteration,
+    train_under_reward,
+    training_method,
+)
 
 __all__ = [
     "ENCODER",
@@ -110,6 +117,7 @@ __all__ = [
     "IRLHistory",
     "IRLRecorder",
     "IRLResult",
+    "Iteration",
     "LeastSquaresReward",
     "Margin",
     "MaximumCausalEntropy",
@@ -187,5 +195,6 @@ __all__ = [
     "structured_classification",
     "terrain",
     "train_under_reward",
+    "training_method",
     "value_of_expectations",
 ]

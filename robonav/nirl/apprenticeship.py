@@ -188,23 +188,31 @@ def apprenticeship_learning(
     >>> found.distances[-1] < 0.1 * found.distances[0]
     np.True_
     """
-    policies, found = [first[0]], [first[1]]  # 1
-    rewards: list[Floats] = []
-    distances: list[float] = []
+    policies, found, guesses = [first[0]], [first[1]], []  # 1
     for iteration in range(iterations + 1):
-        theta, distance = guess(expert, found)  # 2: from mu_E and all mu_j
-        distances.append(distance)
+        guesses.append(guess(expert, found))  # 2: from mu_E and all mu_j
+        theta, distance = guesses[-1]
         if distance <= tolerance or iteration == iterations:  # 3
             break
         policy, mu = solve(theta)  # 4: the best policy for theta . f, and 5: its mu
-        rewards.append(theta)
         policies.append(policy)
         found.append(mu)  # 6
+    return apprenticeship_of(expert, policies, found, guesses)
+
+
+def apprenticeship_of(
+    expert: Floats,
+    policies: Sequence[Any],
+    found: Sequence[Floats],
+    guesses: Sequence[tuple[Floats, float]],
+) -> Apprenticeship:
+    """The result of n + 1 policies, their feature expectations, and the guess after each of them."""
+    rewards = [weights for weights, _ in guesses[: len(policies) - 1]]
     return Apprenticeship(
         policies=tuple(policies),
         expectations=np.stack(found),
         weights=np.array(rewards).reshape(len(rewards), len(expert)),
-        distances=np.array(distances),
+        distances=np.array([distance for _, distance in guesses]),
         expert=expert,
     )
 

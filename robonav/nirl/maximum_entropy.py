@@ -29,14 +29,16 @@ same maximum, L-BFGS, :func:`maximum_causal_entropy`.
 
 from __future__ import annotations
 
+import inspect
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from functools import wraps
+from typing import ParamSpec
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import minimize
+from scipy.optimize import OptimizeResult, minimize
 from scipy.special import logsumexp, softmax
 
 from robonav.counting import counted
@@ -51,6 +53,7 @@ from ._arguments import checked
 from .reward_free_mdp import RewardFreeMDP
 
 Floats = NDArray[np.float64]
+P = ParamSpec("P")
 
 
 @checked
@@ -258,7 +261,61 @@ def causal_entropy_ascent(
     return theta
 
 
-@checked
+def with_trace(
+    maximise: Callable[P, OptimizeResult],
+) -> Callable[P, MaximumCausalEntropy]:
+    """Make a method of a search for the weights: it checks the arguments, and keeps the dual after each iteration.
+
+    The search takes the arguments of :func:`maximum_causal_entropy`, and returns the result of ``scipy``'s minimiser.
+    """
+    signature = inspect.signature(maximise)
+
+    @wraps(maximise)
+    def learn(*args: P.args, **kwargs: P.kwargs) -> MaximumCausalEntropy:
+        """Search for the weights, and keep those after each iteration."""
+        bound = signature.bind(*args, **kwargs)
+        bound.apply_defaults()
+        arguments, path = bound.arguments, []
+        mdp, expert = arguments["mdp"], arguments["expert"]
+        tolerance, regularisation = arguments["tolerance"], arguments["regularisation"]
+        tell = arguments["callback"]
+
+        def keep(theta: Floats) -> None:
+            path.append(theta)
+            tell(theta)
+
+        arguments["callback"] = keep
+        found = maximise(*bound.args, **bound.kwargs)
+        trace = [causal_entropy_dual(theta, mdp, expert) for theta in path]
+        penalties = [regularisation / 2 * theta @ theta for theta in path]
+        largest = float(abs(found.jac).max(initial=0.0))
+        if largest > tolerance:
+            warn_unconverged(found, largest, tolerance)
+        return MaximumCausalEntropy(
+            weights=found.x,
+            policy=soft_value_iteration(mdp.with_reward(found.x)).policy,
+            dual_values=np.array([value for value, _ in trace]) - penalties,
+            gaps=np.array([np.linalg.norm(gap) for _, gap in trace]),
+            converged=largest <= tolerance,
+        )
+
+    learn.__signature__ = signature.replace(  # type: ignore[attr-defined]
+        return_annotation="MaximumCausalEntropy"
+    )
+    return checked(learn)
+
+
+def warn_unconverged(found: OptimizeResult, largest: float, tolerance: float) -> None:
+    """Warn that the largest entry of the gradient exceeds the tolerance."""
+    warnings.warn(
+        f"maximum_causal_entropy ended after {counted(found.nit, 'iteration')} with a gradient of {largest:.3g}, "
+        f"more than the tolerance {tolerance:g}: {found.message}",
+        ConvergenceWarning,
+        stacklevel=4,
+    )
+
+
+@with_trace
 def maximum_causal_entropy(
     mdp: RewardFreeMDP,
     expert: ArrayArgument,
@@ -267,7 +324,7 @@ def maximum_causal_entropy(
     tolerance: float = 1e-6,
     iterations: int = 200,
     callback: Callable[[Floats], None] = lambda _weights: None,
-) -> MaximumCausalEntropy:
+) -> OptimizeResult:
     """Maximum causal entropy IRL (Ziebart et al. 2010): the reward under which the demonstrations are most likely.
 
     Maximises :func:`causal_entropy_dual` over the weights. L-BFGS makes the steps; since scipy minimises, it gets the
@@ -312,42 +369,14 @@ def maximum_causal_entropy(
         value, gradient = causal_entropy_dual(theta, mdp, expert, regularisation)
         return -value, -gradient
 
-    path: list[Floats] = []  # the weights after each iteration
-
-    def keep(theta: Floats) -> None:
-        path.append(theta)
-        callback(theta)
-
-    found: Any = minimize(
+    return minimize(
         negative_dual,
         np.zeros(len(expert)),
         jac=True,
         method="L-BFGS-B",
-        callback=keep,
+        callback=callback,
         options={"maxiter": iterations, "gtol": tolerance, "ftol": 0.0},
     )
-    trace = [causal_entropy_dual(theta, mdp, expert) for theta in path]
-    penalties = [regularisation / 2 * theta @ theta for theta in path]
-    return MaximumCausalEntropy(
-        weights=found.x,
-        policy=soft_value_iteration(mdp.with_reward(found.x)).policy,
-        dual_values=np.array([value for value, _ in trace]) - penalties,
-        gaps=np.array([np.linalg.norm(gap) for _, gap in trace]),
-        converged=_has_converged(found, tolerance),
-    )
-
-
-def _has_converged(found: Any, tolerance: float) -> bool:
-    """Whether the gradient is as small as asked for; a warning if it is not."""
-    largest = float(abs(found.jac).max(initial=0.0))
-    if largest > tolerance:
-        warnings.warn(
-            f"maximum_causal_entropy ended after {counted(found.nit, 'iteration')} with a gradient of {largest:.3g}, "
-            f"more than the tolerance {tolerance:g}: {found.message}",
-            ConvergenceWarning,
-            stacklevel=4,
-        )
-    return largest <= tolerance
 
 
 @dataclass(frozen=True, eq=False)

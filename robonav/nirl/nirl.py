@@ -14,17 +14,14 @@ A network gives the action values Q(s, a), and a Boltzmann policy follows them. 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
-from robonav.networks import random_network
 from robonav.networks.multilayer_perceptron import Network, sigmoid
-from robonav.progress import Progress
 
-from ._arguments import checked
 from .decisions import Decisions, Floats, Ints, concatenate_decisions
 from .max_margin import project_to_unit_ball
-from .model_selection import Score, balanced_accuracy
 from .policy import exploring_policy, neural_action_values
 from .policy_improvement import (
     Improved,
@@ -35,24 +32,22 @@ from .policy_improvement import (
 )
 from .reward_update import RewardUpdate, SubgradientMaxMargin, expert_margin
 from .tasks import Task
-from .training import IRLRecorder, IRLResult
+from .training import Iteration, training_method
 
 
-@checked
+@training_method
 def nirl(
     demonstrations: Decisions,
     task: Task,
+    network: Network,
     *,
     iterations: int = 140,
     tolerance: float = -math.inf,
-    hidden: int = 10,
     inverse_temperature: float = 25.0,
     reward_update: RewardUpdate = SubgradientMaxMargin(),  # noqa: B008 - frozen
     improver: Improver = ReplaySGD(),  # noqa: B008 - frozen
-    score: Score = balanced_accuracy,
-    seed: int | np.random.Generator = 0,
-    progress: Progress | None = None,
-) -> IRLResult:
+    rng: np.random.Generator,
+) -> Iterator[Iteration]:
     """Neural inverse reinforcement learning, Algorithm 10.
 
     Each iteration guesses a reward under which the expert does better than the latest policy, and improves the policy
@@ -61,33 +56,12 @@ def nirl(
 
     Parameters
     ----------
-    demonstrations : Decisions
-        The expert's decisions.
-    task : Task
-        The task on which the network trains.
-    iterations : int
-        Iterations at most.
     tolerance : float
         epsilon: the algorithm ends when the margin is no larger. By default it makes all iterations.
-    hidden : int
-        Hidden units of the network.
-    inverse_temperature : float
-        eta of the Boltzmann policy, Eq. (5.10), over the network's outputs. These lie between 0 and 1.
     reward_update : RewardUpdate
         Line 5: :class:`SubgradientMaxMargin`, or :class:`LeastSquaresReward` for the objective that the thesis prints.
     improver : Improver
         Lines 9 and 10: :class:`ReplaySGD`, or :class:`FullBatchDescent`. The thesis leaves the number of steps open.
-    score : callable
-        Measures how well a policy predicts the demonstrations: :func:`balanced_accuracy`, or the thesis's
-        :func:`accuracy`.
-    seed : int or Generator
-        Seed of all random numbers.
-    progress : callable, optional
-        Called as ``progress(done, iterations)``.
-
-    Returns
-    -------
-    IRLResult
 
     Raises
     ------
@@ -105,11 +79,7 @@ def nirl(
     >>> result.reward_weights.shape, result.history.margins[0] > result.history.margins[-1]
     ((4, 43), np.True_)
     """
-    rng = np.random.default_rng(seed)
-    network = random_network((task.n_inputs, hidden, task.n_actions), seed=rng)  # 1
-    record = IRLRecorder(
-        demonstrations, task, network, inverse_temperature, iterations, progress
-    )
+    # 1: the network has random weights
     theta, episodes = np.zeros((task.n_actions, task.n_inputs + 1)), []
     for i in range(1, iterations + 1):  # 2, 3, 11
         policy = exploring_policy(network, inverse_temperature)
@@ -125,8 +95,7 @@ def nirl(
         fraction = (i - 1) / max(iterations - 1, 1)
         # 9, 10: targets, Eq. (5.16), and descent to them, as in sarsa_descent below
         network, cost = improver.improve(network, pairs, rewards, fraction, rng)
-        record.add(episodes[-1], reward, network, cost)
-    return record.result(score)
+        yield Iteration(episodes[-1], reward, network, cost)
 
 
 def sarsa_descent(

@@ -9,8 +9,10 @@ the baseline, importance weights correct for it.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from functools import wraps
+from typing import Any, ParamSpec
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +31,7 @@ from .tasks import Task
 from .training import IRLResult, train_under_reward
 
 Floats = NDArray[np.float64]
+P = ParamSpec("P")
 
 PRECISION = 1e-2
 """By so much of a feature's scale the gap may exceed the slack; L-BFGS usually comes closer."""
@@ -50,9 +53,11 @@ class RelativeEntropy:
     effective_samples : float
         Kish's effective sample size: the number of equally weighted samples with the same variance. If it is small, the
         estimate depends on a few trajectories.
-    converged : bool
-        Whether each entry of the gap is within the slack, to a hundredth of the feature's scale, or its weight has
+    excess : float
+        By how much an entry of the gap exceeds the slack, in units of the feature's scale, where the weight has not
         reached the bound. The scale of a feature is the largest distance of a sample's from the expert's.
+    iterations : int
+        Iterations of L-BFGS.
 
     Examples
     --------
@@ -66,7 +71,13 @@ class RelativeEntropy:
     dual: float
     gap: Floats
     effective_samples: float
-    converged: bool
+    excess: float
+    iterations: int
+
+    @property
+    def converged(self) -> bool:
+        """Whether the gap is within the slack, to a hundredth of the feature's scale."""
+        return self.excess <= PRECISION
 
 
 @checked
@@ -213,7 +224,29 @@ def hoeffding_slack(
     return np.sqrt(-np.log(failure / 2) / (2 * n_demonstrations)) * ranges
 
 
+def warns_beyond_slack(
+    method: Callable[P, RelativeEntropy],
+) -> Callable[P, RelativeEntropy]:
+    """Let a method warn where the gap of its result exceeds the slack."""
+
+    @wraps(method)
+    def run(*args: P.args, **kwargs: P.kwargs) -> RelativeEntropy:
+        """Call the method, and warn if it has not converged."""
+        found = method(*args, **kwargs)
+        if not found.converged:
+            warnings.warn(
+                f"{method.__name__} ended after {counted(found.iterations, 'iteration')}, and the gap exceeds the "
+                f"slack by {found.excess:.3g} of a feature's scale, more than {PRECISION:g}",
+                ConvergenceWarning,
+                stacklevel=3,
+            )
+        return found
+
+    return run
+
+
 @checked
+@warns_beyond_slack
 def relative_entropy_weights(
     expert: ArrayArgument,
     samples: ArrayArgument,
@@ -291,21 +324,8 @@ def relative_entropy_weights(
     value = dual(theta, expert, samples, log_ratios, eps)
     gap, effective_samples = expert - w @ samples, float(1 / (w**2).sum())
     free = abs(theta) * scale < bound
-    excess = (abs(gap) - eps) / scale
-    converged = _is_within_slack(excess[free].max(initial=0.0), found)
-    return RelativeEntropy(theta, value, gap, effective_samples, converged)
-
-
-def _is_within_slack(excess: float, found: Any) -> bool:
-    """Whether the gap is within the slack, to the precision asked for; a warning if it is not."""
-    if excess > PRECISION:
-        warnings.warn(
-            f"relative_entropy_weights ended after {counted(found.nit, 'iteration')}, and the gap exceeds the slack "
-            f"by {excess:.3g} of a feature's scale, more than {PRECISION:g}: {found.message}",
-            ConvergenceWarning,
-            stacklevel=4,
-        )
-    return bool(excess <= PRECISION)
+    excess = float(((abs(gap) - eps) / scale)[free].max(initial=0.0))
+    return RelativeEntropy(theta, value, gap, effective_samples, excess, found.nit)
 
 
 def segment_features(

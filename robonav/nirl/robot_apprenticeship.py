@@ -7,24 +7,21 @@ goes on from one reward to the next. And what is returned is not a mixture, but 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.networks import random_network
-from robonav.progress import Progress
+from robonav.networks.multilayer_perceptron import Network
 
-from ._arguments import checked
 from .apprenticeship import RewardGuess, projection_guess
 from .decisions import Decisions, concatenate_decisions
 from .feature_expectations import decision_feature_sums
 from .max_margin import project_to_unit_ball
-from .model_selection import Score, balanced_accuracy
 from .policy import exploring_policy
 from .policy_improvement import ReplaySGD, decision_rewards
 from .tasks import Task
-from .training import IRLRecorder, IRLResult
+from .training import Iteration, training_method
 
 Floats = NDArray[np.float64]
 
@@ -99,22 +96,20 @@ def mean_or_zeros(sums: Floats) -> Floats:
     return sums.mean(axis=0) if len(sums) else np.zeros(sums.shape[1])
 
 
-@checked
+@training_method
 def apprenticeship(
     demonstrations: Decisions,
     task: Task,
+    network: Network,
     *,
     guess: RewardGuess = projection_guess,
     expectations: PolicyExpectations = from_all_states,
     n_rewards: int = 14,
     iterations: int = 140,
-    hidden: int = 10,
     inverse_temperature: float = 25.0,
     improver: ReplaySGD = ReplaySGD(),  # noqa: B008 - frozen
-    score: Score = balanced_accuracy,
-    seed: int | np.random.Generator = 0,
-    progress: Progress | None = None,
-) -> IRLResult:
+    rng: np.random.Generator,
+) -> Iterator[Iteration]:
     """Apprenticeship learning (Abbeel and Ng 2004) without a model: a neural network learns the policy of each reward.
 
     The numbers in the code are the steps of the paper, as in :func:`apprenticeship_learning`. Feature expectations are
@@ -122,10 +117,6 @@ def apprenticeship(
 
     Parameters
     ----------
-    demonstrations : Decisions
-        The expert's decisions.
-    task : Task
-        The task on which the network trains.
     guess : callable
         :func:`projection_guess` or :func:`max_margin_guess`.
     expectations : callable
@@ -133,25 +124,8 @@ def apprenticeship(
     n_rewards : int
         Rewards to guess at most. The ``iterations`` are divided equally among them, and the network keeps its weights
         from one reward to the next.
-    iterations : int
-        Iterations at most.
-    hidden : int
-        Hidden units of the network.
-    inverse_temperature : float
-        eta of the Boltzmann policy, Eq. (5.10), over the network's outputs. These lie between 0 and 1.
     improver : ReplaySGD
         Improves the network; its discount is that of the feature expectations.
-    score : callable
-        Measures how well a policy predicts the demonstrations: :func:`balanced_accuracy`, or the thesis's
-        :func:`accuracy`.
-    seed : int or Generator
-        Seed of all random numbers.
-    progress : callable, optional
-        Called as ``progress(done, iterations)``.
-
-    Returns
-    -------
-    IRLResult
 
     Examples
     --------
@@ -162,14 +136,9 @@ def apprenticeship(
     >>> len(apprenticeship(expert, task, n_rewards=2, iterations=4).history.costs)
     4
     """
-    rng = np.random.default_rng(seed)
     n_actions, discount = task.n_actions, improver.discount
-    network = random_network((task.n_inputs, hidden, n_actions), seed=rng)
     per_reward = max(iterations // n_rewards, 1)
     total = n_rewards * per_reward
-    record = IRLRecorder(
-        demonstrations, task, network, inverse_temperature, total, progress
-    )
     mu_expert = expectations(demonstrations, n_actions, discount)
     episodes = [task.rollout(exploring_policy(network, inverse_temperature), rng)]
     found = [expectations(episodes[0], n_actions, discount)]  # 1
@@ -183,9 +152,7 @@ def apprenticeship(
             rewards = decision_rewards(theta, pairs)  # theta . f(s, a)
             fraction = (len(episodes) - 1) / max(total - 1, 1)
             network, cost = improver.improve(network, pairs, rewards, fraction, rng)
-            record.add(episodes[-1], theta, network, cost)
-            episodes.append(
-                task.rollout(exploring_policy(network, inverse_temperature), rng)
-            )
+            yield Iteration(episodes[-1], theta, network, cost)
+            policy = exploring_policy(network, inverse_temperature)
+            episodes.append(task.rollout(policy, rng))
         found.append(expectations(episodes[-1], n_actions, discount))  # 5, 6
-    return record.result(score)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import wraps
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from robonav.documentation import documents
 from robonav.networks import random_network
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.network_stack import NetworkStack, stacked
@@ -253,50 +257,153 @@ class IRLRecorder:
         )
 
 
-@checked
+@dataclass(frozen=True, eq=False)
+class Iteration:
+    """What an algorithm yields after each of its iterations.
+
+    Attributes
+    ----------
+    episodes : Decisions
+        The episodes of the iteration.
+    theta : (A, k + 1) array
+        Its reward weights.
+    network : Network
+        The network after it.
+    cost : float
+        The cost of the network.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.nirl import Iteration, TabularTask, terrain
+    >>> episodes = TabularTask(terrain()[1]).demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+    >>> Iteration(episodes, np.zeros((4, 43)), random_network((42, 5, 4), seed=0), 0.7).cost
+    0.7
+    """
+
+    episodes: Decisions
+    theta: Floats
+    network: Network
+    cost: float
+
+
+def training_method(
+    algorithm: Callable[..., Iterator[Iteration]],
+) -> Callable[..., IRLResult]:
+    """Make a method of inverse reinforcement learning of an algorithm that trains a network.
+
+    The algorithm is a generator: it gets a ``network`` with random weights and the generator ``rng`` of the random
+    numbers, and yields each of its iterations. The function that users call checks its arguments, makes the network and
+    ``rng``, records what the algorithm yields, and returns the network that predicts the demonstrations best. In place
+    of ``network`` and ``rng`` it takes ``hidden``, ``score``, ``seed`` and ``progress``. ``inspect.unwrap`` of it is
+    the algorithm as written.
+
+    Parameters
+    ----------
+    algorithm : callable
+        Its keyword arguments include ``iterations`` and ``inverse_temperature``.
+
+    Returns
+    -------
+    callable
+
+    Examples
+    --------
+    >>> import inspect
+    >>> from robonav.nirl import nirl
+    >>> sorted(set(inspect.signature(nirl).parameters) - set(inspect.signature(inspect.unwrap(nirl)).parameters))
+    ['hidden', 'progress', 'score', 'seed']
+    """
+    signature = inspect.signature(algorithm)
+    own = [p for name, p in signature.parameters.items() if name not in MADE]
+    signature = signature.replace(parameters=own + ADDED, return_annotation="IRLResult")
+
+    @wraps(algorithm)
+    def train(*args: Any, **kwargs: Any) -> IRLResult:
+        """Make the network, run the algorithm, and record it."""
+        bound = signature.bind(*args, **kwargs)
+        bound.apply_defaults()
+        settings = bound.arguments
+        hidden, score, seed, progress = (settings.pop(p.name) for p in ADDED)
+        rng, task = np.random.default_rng(seed), settings["task"]
+        network = random_network((task.n_inputs, hidden, task.n_actions), seed=rng)
+        recorder = IRLRecorder(
+            settings["demonstrations"], task, network,
+            settings["inverse_temperature"], settings["iterations"], progress,
+        )  # fmt: skip
+        for iteration in algorithm(**settings, network=network, rng=rng):
+            recorder.add(
+                iteration.episodes, iteration.theta, iteration.network, iteration.cost
+            )
+        return recorder.result(score)
+
+    train.__signature__ = signature  # type: ignore[attr-defined]
+    return checked(documents(DOCUMENTED, returns="IRLResult")(train))
+
+
+MADE = ("network", "rng")
+"""What :func:`training_method` makes for an algorithm."""
+
+ADDED = [
+    inspect.Parameter(
+        name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind
+    )
+    for name, default, kind in (
+        ("hidden", 10, "int"),
+        ("score", balanced_accuracy, "Score"),
+        ("seed", 0, "int | np.random.Generator"),
+        ("progress", None, "Progress | None"),
+    )
+]
+"""What the function that :func:`training_method` makes takes in their place."""
+
+DOCUMENTED = {
+    "demonstrations": """Decisions
+    The expert's decisions.""",
+    "task": """Task
+    The task on which the network trains.""",
+    "iterations": """int
+    Iterations at most.""",
+    "inverse_temperature": """float
+    eta of the Boltzmann policy, Eq. (5.10), over the network's outputs. These lie between 0 and 1.""",
+    "hidden": """int
+    Hidden units of the network.""",
+    "score": """callable
+    Measures how well a policy predicts the demonstrations: :func:`balanced_accuracy`, or the thesis's
+    :func:`accuracy`. The best policy is the result.""",
+    "seed": """int or numpy.random.Generator
+    Seed of all random numbers.""",
+    "progress": """callable, optional
+    Called as ``progress(done, iterations)``.""",
+}
+"""Type and description of the arguments that all training methods share."""
+
+
+@training_method
 def train_under_reward(
     demonstrations: Decisions,
     task: Task,
     weights: Floats,
+    network: Network,
     *,
     iterations: int = 140,
-    hidden: int = 10,
     inverse_temperature: float = 25.0,
     improver: Improver = ReplaySGD(),  # noqa: B008 - frozen
-    score: Score = balanced_accuracy,
-    seed: int | np.random.Generator = 0,
-    progress: Progress | None = None,
-) -> IRLResult:
+    rng: np.random.Generator,
+) -> Iterator[Iteration]:
     """Neural policy iteration under a fixed reward: NIRL without its line 5.
 
     The demonstrations are used only to choose among the policies found.
 
     Parameters
     ----------
-    demonstrations : Decisions
-        The expert's decisions.
-    task : Task
-        The task on which the network trains.
     weights : (A, k + 1) array
         theta of the reward.
     iterations : int
         Number of rollouts, each followed by an improvement.
-    hidden : int
-        Hidden units of the network.
-    inverse_temperature : float
-        eta of Eq. (5.10).
     improver : Improver
         Improves the network.
-    score : callable
-        Measures how well a policy predicts the demonstrations; the best one is the result.
-    seed : int or Generator
-        Seed of all random numbers.
-    progress : callable, optional
-        Called as ``progress(done, iterations)``.
-
-    Returns
-    -------
-    IRLResult
 
     Examples
     --------
@@ -307,19 +414,13 @@ def train_under_reward(
     >>> train_under_reward(expert, task, np.zeros((4, 43)), iterations=2).policy.shape
     (42,)
     """
-    rng, theta = np.random.default_rng(seed), project_to_unit_ball(weights)
-    network = random_network((task.n_inputs, hidden, task.n_actions), seed=rng)
-    record = IRLRecorder(
-        demonstrations, task, network, inverse_temperature, iterations, progress
-    )
+    theta = project_to_unit_ball(weights)
     episodes: list[Decisions] = []
     for iteration in range(iterations):
-        episodes.append(
-            task.rollout(exploring_policy(network, inverse_temperature), rng)
-        )
+        policy = exploring_policy(network, inverse_temperature)
+        episodes.append(task.rollout(policy, rng))
         pairs = concatenate_decisions(episodes[-improver.replay :])
         rewards = decision_rewards(theta, pairs)  # theta . f(s, a)
         fraction = iteration / max(iterations - 1, 1)
         network, cost = improver.improve(network, pairs, rewards, fraction, rng)
-        record.add(episodes[-1], theta, network, cost)
-    return record.result(score)
+        yield Iteration(episodes[-1], theta, network, cost)

@@ -1,5 +1,7 @@
 """Neural policy iteration and NIRL: targets, gradients, choice, gridworlds (sections 5.5.3 and 5.5.4, Algorithm 10)."""
 
+import inspect
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -514,6 +516,25 @@ def test_it_stops_before_it_trains(terrain):
     tolerance = margins[:10].min() + 1e-12
     stopped = nirl(demonstrations, tabular, iterations=50, tolerance=tolerance, seed=0)
     assert len(stopped.history.margins) == np.argmax(margins <= tolerance)
+
+
+def test_the_result_records_what_the_algorithm_yields(terrain):
+    """With the network and the random numbers that the decorator makes, the algorithm yields its own history."""
+    task = TabularTask(terrain.task)
+    shown, rng = task.demonstrate(terrain.expert, 5, seed=1), np.random.default_rng(4)
+    network = random_network((task.n_inputs, 6, task.n_actions), seed=rng)
+    algorithm = inspect.unwrap(nirl)
+    yielded = list(algorithm(shown, task, network, iterations=3, rng=rng))
+    done = []
+    found = nirl(
+        shown, task, iterations=3, hidden=6, seed=4, progress=lambda *n: done.append(n)
+    )
+    assert done == [(1, 3), (2, 3), (3, 3)]
+    assert found.history.costs.tolist() == [one.cost for one in yielded]
+    np.testing.assert_array_equal(found.history.weights, [one.theta for one in yielded])
+    networks = [network, *(one.network for one in yielded)]
+    for kept, own in zip(found.history.networks.weights[0], networks, strict=True):
+        np.testing.assert_array_equal(kept, own.weights[0])
 
 
 def test_the_same_seed_gives_the_same_numbers(terrain):
