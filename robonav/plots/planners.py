@@ -83,7 +83,7 @@ def draw_forces(axes: Axes, sensing: Sensing, policy: PotentialField) -> None:
         )  # fmt: skip
         if label:
             axes.plot([], [], color=colour, linewidth=2, label=label)
-    axes.legend(loc="lower left", fontsize=9)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, fontsize=9)
 
 
 def draw_histogram(axes: Axes, sensing: Sensing, policy: VectorFieldHistogram) -> None:
@@ -123,7 +123,9 @@ def draw_histogram(axes: Axes, sensing: Sensing, policy: VectorFieldHistogram) -
         (masked, style.GREY, "masked"),
         (~masked & ~free, style.ORANGE, "blocked"),
     ):
-        axes.bar(degrees[which], histogram[0, which], 5, color=colour, label=label)
+        shown = which & (histogram[0] > 0)
+        if shown.any():
+            axes.bar(degrees[shown], histogram[0, shown], 5, color=colour, label=label)
     axes.axhline(
         policy.threshold, color=style.INK, linestyle=":", linewidth=1.2, label="threshold"
     )  # fmt: skip

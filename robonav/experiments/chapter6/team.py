@@ -5,19 +5,26 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from robonav.benchmark import method
 from robonav.benchmark.evaluation import OUTCOMES
 from robonav.deep import train_team
-from robonav.robot import Policy, PolicyWithMemory, Reflex
+from robonav.robot import Action, Policy, PolicyWithMemory, Reflex, Sensing
 from robonav.robot.team import TeamNavigation, Teams, navigate_team, random_teams
 
-from ..runner.experiment import Case, Experiment, Numbers, Plot
+from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers, Plot
 from .setup import CONDITIONS, PLANNERS, planner, tuned
 
 TEAM: dict[str, Any] = CONDITIONS["team"]
 LEARNING: dict[str, Any] = CONDITIONS["team_learning"]
 METHODS = ("freer-side", "potential-field", "dagger", "nnql", "nirl")
 REFLEX_OF_TEAMS = Reflex(TEAM["direction"])
+LOOKS = {"ahead": [0], "ahead and beside": [0, 1, 8]}
+"""Columns of the sectors in which a rule looks for something near."""
+
+TURNS = ("to the freer side", "to the right")
 
 
 def policy_of(name: str) -> Policy | PolicyWithMemory:
@@ -66,6 +73,28 @@ def evaluate_team(case: Case, seed: int, scale: str) -> Numbers:
     return run_team(policy_of(str(case["method"])), int(case["robots"]), seed, scale)
 
 
+def rule(looks: str, turns: str) -> Policy:
+    """Return a rule: if something is nearer than 6 m in these sectors, turn 60 degrees; else go forward.
+
+    With ``ahead`` and ``to the freer side`` it is :func:`robonav.robot.turn_to_clearer_side`.
+    """
+
+    def policy(sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
+        ranges = sensing.ranges
+        freer_left = ranges[:, 1:3].min(axis=1) > ranges[:, 7:9].min(axis=1)
+        left = freer_left & (turns == "to the freer side")
+        near = ranges[:, LOOKS[looks]].min(axis=1) < 6
+        return np.where(near, np.where(left, Action.L60, Action.R60), Action.F)
+
+    return policy
+
+
+def evaluate_rule(case: Case, seed: int, scale: str) -> Numbers:
+    """Drive the robots of a case by a rule."""
+    policy = rule(str(case["looks"]), str(case["turns"]))
+    return drive_team(policy, int(case["robots"]), seed, scale)
+
+
 @lru_cache(maxsize=64)
 def learned_policy(robots: int, seed: int, scale: str) -> Policy:
     """Return the policy that robots learned together, with this number of them on each map."""
@@ -110,6 +139,21 @@ EXPERIMENTS = (
         settings=ABOUT | {"potential-field": dict(tuned()["potential-field"])},
         note="All robots of a map have the same policy. None was trained with other robots.",
         plot=Plot("team.draw_against_robots"),
+    ),
+    Experiment(
+        name="team-rules",
+        title="Rules that look ahead or beside it too, and turn to the freer side or to the right",
+        cases=[
+            {"looks": looks, "turns": turns, "robots": robots}
+            for looks in LOOKS
+            for turns in TURNS
+            for robots in (1, max(TEAM["robots"]))
+        ],
+        run=evaluate_rule,
+        seeds={"quick": 1, "thesis": 10},
+        settings=ABOUT,
+        note="All robots of a map have the same rule. The first one is freer-side.",
+        plot=SUCCESS_BARS,
     ),
     Experiment(
         name="team-learning",
