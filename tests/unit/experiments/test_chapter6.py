@@ -22,6 +22,7 @@ from robonav.experiments.chapter6 import (
     gail,
     planners,
     ppo,
+    team,
     tuning,
 )
 from robonav.experiments.chapter6.setup import PLANNERS, SETUP, planner, tuned
@@ -259,6 +260,7 @@ def test_what_the_page_says_about_gail():
     steps = gail.TRAINING["updates"] * gail.TRAINING["actors"] * 128
     page = Path("book/adversarial-imitation.md").read_text("utf-8")
     assert f"{steps:,} steps" in page
+    assert f"With a regularisation of {gail.LESS} in place of 1" in page
 
 
 def of_team(metric, name="team", **wanted):
@@ -281,7 +283,30 @@ def test_what_the_page_says_about_several_robots():
         assert hit > of_team("collision with an obstacle", method=name, robots=16)
 
 
+def test_what_the_page_says_about_rules():
+    """A wider look helps among sixteen robots, and turning right does not."""
+
+    def arrived(looks, turns, robots=16):
+        case = {"looks": looks, "turns": turns, "robots": robots}
+        return of_team("success", "team-rules", **case)
+
+    ahead, both = team.LOOKS
+    freer, right = team.TURNS
+    usual = arrived(ahead, freer)
+    assert usual == of_team("success", method="freer-side", robots=16)
+    assert arrived(both, freer) > usual + 50
+    assert abs(arrived(ahead, right) - usual) < 2
+    assert arrived(both, right, 1) < 60
+    assert arrived(both, freer) > max(
+        of_team("success", method=name, robots=16) for name in team.METHODS
+    )
+
+
 def test_what_the_page_says_about_learning_together():
+    page = Path("book/several-robots.md").read_text("utf-8")
+    updates, learners = team.LEARNING["updates"]["thesis"], team.LEARNING["learners"]
+    assert f"A training has {updates} updates with {learners} episodes each" in page
+
     def arrived(learners, robots):
         case = {"robots in training": learners, "robots": robots}
         return of_team("success", "team-learning", **case)
