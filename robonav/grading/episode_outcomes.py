@@ -39,13 +39,19 @@ def require_arrivals(
 def suggestion(collisions: int, others: int, collided: str, late: str) -> str:
     """Return the hint for the more frequent end, or both where neither is twice as frequent as the other.
 
+    A hint that is the same for both ends is said once.
+
     Examples
     --------
     >>> suggestion(90, 10, "Look ahead.", "Turn to the target.")
     'Most robots that fail collide. Look ahead.'
     >>> suggestion(50, 40, "Look ahead.", "Turn to the target.")
     'Some robots collide. Look ahead. Others drive on until the time is over. Turn to the target.'
+    >>> suggestion(50, 40, "Use the memory.", "Use the memory.")
+    'Use the memory.'
     """
+    if collided == late:
+        return collided
     if collisions >= 2 * others:
         return f"Most robots that fail collide. {collided}"
     if others >= 2 * collisions:

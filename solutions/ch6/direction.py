@@ -8,7 +8,7 @@ direction that was chosen last.
 
 Every free bin is a candidate here. The angle between two bins is how many bins they
 are apart, the shorter way round the circle; the heading is bin 0. The candidate of the
-least cost is chosen, and of several the one with the lowest number.
+least cost is chosen, and of several with the same cost the one with the lowest number.
 """
 
 import numpy as np

@@ -288,10 +288,13 @@ def pockets(rng, n, depths):
 
 
 class Remembering:
-    """A policy that asks the student's function, and keeps what each robot remembers."""
+    """A policy that asks the student's function, and keeps what each robot remembers.
+
+    ``remembers`` says whether any robot ever got something else back than it had.
+    """
 
     def __init__(self, answer):
-        self.answer = answer
+        self.answer, self.remembers = answer, False
 
     def begin(self, simulator, rng):
         memory = np.zeros((len(simulator), 4))
@@ -304,7 +307,9 @@ class Remembering:
                 sensing.ranges, bearing, np.hypot(dx, dy), memory[robots]
             )
             actions, kept = self.parts(got, len(robots))
+            had = memory[robots].copy()
             memory[robots] = kept
+            self.remembers = self.remembers or bool((memory[robots] != had).any())
             return actions
 
         return select_actions
@@ -334,21 +339,33 @@ class Remembering:
         return actions, kept
 
 
-def escapes(answer, worlds, least):
-    """Require that many of the robots arrive."""
+KEEPS_TOO_NEAR = (
+    "Look at how far the robot keeps from walls and obstacles, and above all from one that it follows: a step "
+    "is 2 m, no reflex helps, and a corner may lie between the middles of two sectors."
+)
+LEAVES_TOO_SOON_OR_NEVER = (
+    "Look at what the memory says when a robot begins "
+    "to follow a wall and when it leaves it: one that forgets too soon stays in the pocket, and one that never "
+    "leaves goes round and round."
+)
+REMEMBERS_NOTHING = (
+    "No robot remembers anything: the memory that your function returns is in every step the one that it got, so "
+    "it stays 0. Then a robot does the same wherever it senses the same, and comes back into the pocket again and "
+    "again. Return, for example, whether it follows a wall and on which side, and read this in the next step."
+)
+
+
+def escapes(answer, worlds, least, *, pocket=True):
+    """Require that many of the robots arrive. In a pocket they need a memory."""
     from robonav.grading.episode_outcomes import require_arrivals
     from robonav.robot import navigate
 
-    require_arrivals(
-        answer,
-        navigate(Remembering(answer), worlds, max_steps=250, reflex=None).outcome,
-        least,
-        collided="Look at how far the robot keeps from the wall that it follows: a step "
-        "is 2 m, no reflex helps, and a corner may lie between the middles of two sectors.",
-        late="Look at what the memory says when a robot begins "
-        "to follow a wall and when it leaves it: one that forgets too soon stays in the pocket, and one that never "
-        "leaves goes round and round.",
-    )
+    policy = Remembering(answer)
+    outcome = navigate(policy, worlds, max_steps=250, reflex=None).outcome
+    collided, late = KEEPS_TOO_NEAR, LEAVES_TOO_SOON_OR_NEVER
+    if pocket and not policy.remembers:
+        collided, late = REMEMBERS_NOTHING, REMEMBERS_NOTHING
+    require_arrivals(answer, outcome, least, collided=collided, late=late)
 
 
 @pytest.mark.part("6.6", points=3)
@@ -368,7 +385,7 @@ def test_escape_among_obstacles(answer, rng):
     """Arrives in 85 of 100 worlds of ten obstacles; a robot that goes straight arrives in 40."""
     from robonav.robot import random_worlds
 
-    escapes(answer, random_worlds(100, 10, seed=rng), 85)
+    escapes(answer, random_worlds(100, 10, seed=rng), 85, pocket=False)
 
 
 def outputs_of(layers, inputs):
@@ -432,10 +449,11 @@ class Actor:
 
 
 def reinforced(answer, rng, obstacles):
-    """Let a robot practise in twelve rounds, and see how its episodes end in 100 new worlds."""
+    """Let a robot practise in twelve rounds; how its episodes end in 100 new worlds, and whether its policy changed."""
     from robonav.robot import navigate, random_worlds
 
     robot = Actor(rng)
+    begun = robot.layers
     for number in range(12):
         worlds = random_worlds(60, obstacles, seed=rng)
         states, actions, log_before, episodes, ends = robot.practised(worlds)
@@ -453,23 +471,34 @@ def reinforced(answer, rng, obstacles):
         weights = [w.astype(float) for w in weights]
         robot.layers = [np.clip(w, -1e6, 1e6) for w in weights]
     worlds = random_worlds(100, obstacles, seed=rng)
-    return navigate(robot.drive, worlds, max_steps=150).outcome
+    changed = not all(map(np.array_equal, robot.layers[:2], begun[:2]))
+    return navigate(robot.drive, worlds, max_steps=150).outcome, changed
+
+
+COLLIDES_STILL = (
+    "Look at the sign of the gradient, which the objective rises along, and at whether a collision reaches "
+    "the steps before it: they share in what comes later in their episode, discounted."
+)
+CIRCLES = (
+    "Perhaps they go in circles. Look at what a step costs: a small cost makes circles worse than arriving. "
+    "And at the size of the steps: a policy that is certain too soon tries nothing else, so limit how far a round "
+    "may change it, and let the entropy count."
+)
+LEARNS_NOTHING = (
+    "The policy has not learned: after all rounds its two layers are those that it began with. Return layers that "
+    "have moved along the gradient, and not the ones that were given."
+)
 
 
 def navigates_well(answer, rng, obstacles, least):
     """Require that many of 100 episodes arrive after practice among so many obstacles."""
     from robonav.grading.episode_outcomes import require_arrivals
 
-    require_arrivals(
-        answer,
-        reinforced(answer, rng, obstacles),
-        least,
-        collided="Look at the sign of the gradient, which the objective rises along, and at whether a collision reaches "
-        "the steps before it: they share in what comes later in their episode, discounted.",
-        late="Perhaps they go in circles. Look at what a step costs: a small cost makes circles worse than arriving. "
-        "And at the size of the steps: a policy that is certain too soon tries nothing else, so limit how far a round "
-        "may change it, and let the entropy count.",
-    )
+    outcome, changed = reinforced(answer, rng, obstacles)
+    collided, late = COLLIDES_STILL, CIRCLES
+    if not changed:
+        collided, late = LEARNS_NOTHING, LEARNS_NOTHING
+    require_arrivals(answer, outcome, least, collided=collided, late=late)
 
 
 @pytest.mark.part("6.7", points=6)

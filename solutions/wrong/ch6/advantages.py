@@ -87,6 +87,12 @@ def values_of_the_next_row(*case):
     return _backwards(*case[:2], after, *case[3:])
 
 
+def values_of_the_next_row_and_none_after_the_last(*case):
+    """Take the values after the steps from those that are given, in the last row too: the next row may be a new episode."""
+    after = np.concatenate([case[1][1:], 0 * case[2][-1:]])
+    return _backwards(*case[:2], after, *case[3:])
+
+
 def returns_instead(*case):
     """This is the advantage plus the value of the state: the advantage is what goes beyond that value."""
     return _backwards(*case, baseline=False)

@@ -22,6 +22,14 @@ def remembers_nothing(ranges, bearing, distance, memory):
     return np.where(ranges[:, 0] < 6, away, _towards(bearing)), memory
 
 
+def wipes_its_memory(ranges, bearing, distance, memory):
+    """The robot would store the side on which it follows a wall, but returns an empty memory."""
+    side = np.where(memory[:, 0] == 0, 1.0, memory[:, 0])
+    near = ranges[:, [0, 1, 8]].min(axis=1) < 5
+    actions = np.where(near, np.where(side > 0, 4, 2), _towards(bearing))
+    return actions, np.zeros_like(memory)
+
+
 def never_leaves(ranges, bearing, distance, memory):
     """The robot remembers that it has met a wall, but not to leave it again."""
     met = (memory[:, 0] > 0) | (ranges[:, 0] < 6)

@@ -206,6 +206,32 @@ def test_what_the_page_says_about_the_leaderboard():
         assert success["ppo", setting] < success["dagger", setting]
 
 
+def test_what_the_page_says_about_the_front():
+    """Cloning, DAgger and NIRL are not beaten with 20 obstacles in success and SPL."""
+    board = published("leaderboard")
+    found = {
+        case["method"]: [board.summary(metric, place).mean for metric in ("success", "SPL")]
+        for place, case in enumerate(board.experiment.cases)
+        if case["setting"] == "20 obstacles" and case["method"] != "straight"
+    }  # fmt: skip
+    front = {
+        name
+        for name, own in found.items()
+        if not any((np.array(other) > own).all() for other in found.values())
+    }
+    assert front == {"lfd", "dagger", "nirl"}
+    assert found["nirl"] > found["dagger"] > found["lfd"]
+    assert found["lfd"][1] > found["dagger"][1] > found["nirl"][1]
+    dense = [of_board("dqn", n) - of_board("ppo", n) for n in (20, 30)]
+    assert min(dense) > 0
+
+
+def of_board(name, obstacles):
+    board = published("leaderboard")
+    case = {"method": name, "setting": f"{obstacles} obstacles"}
+    return board.summary("success", list(board.experiment.cases).index(case)).mean
+
+
 def remembered(metric, network, k):
     results = published("memory")
     case = {"network": network, "k": k, "reflex": "none"}
