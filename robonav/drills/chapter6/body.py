@@ -106,7 +106,7 @@ def seconds_to_turn_around(rng: Rng) -> Question:
     answer = 2 * speed / deceleration
     return Question(
         f"A robot drives forward at ${speed:g}$ m/s and is to drive backward as fast. It has four ordinary wheels "
-        f"whose friction is ${friction:g}$, and strong motors at all of them. So it can brake with ${friction:g} \\cdot "
+        f"whose friction is ${friction:g}$, and strong motors at each. So it can brake with ${friction:g} \\cdot "
         "9.81$ m/s². How many seconds does it take until it drives backward at this speed?",
         Number(
             answer,

@@ -90,9 +90,9 @@ def rule(looks: str, turns: str) -> Policy:
 
 
 def evaluate_rule(case: Case, seed: int, scale: str) -> Numbers:
-    """Drive the robots of a case by a rule."""
+    """Let the robots of a case cross the maps of a run by a rule."""
     policy = rule(str(case["looks"]), str(case["turns"]))
-    return drive_team(policy, int(case["robots"]), seed, scale)
+    return run_team(policy, int(case["robots"]), seed, scale)
 
 
 @lru_cache(maxsize=64)

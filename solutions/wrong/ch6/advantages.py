@@ -88,7 +88,7 @@ def values_of_the_next_row(*case):
 
 
 def values_of_the_next_row_and_none_after_the_last(*case):
-    """Take the values after the steps from those that are given, in the last row too: the next row may be a new episode."""
+    """Take the value after a step from those given, in the last row too: the next row may begin another episode."""
     after = np.concatenate([case[1][1:], 0 * case[2][-1:]])
     return _backwards(*case[:2], after, *case[3:])
 

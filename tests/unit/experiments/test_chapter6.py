@@ -30,7 +30,8 @@ from robonav.experiments.ship import SEEDS_6, folder_of, ppo_weights
 from robonav.networks import load_weights
 from robonav.nnql import METHODS
 from robonav.planners import DynamicWindow
-from robonav.robot import Reflex
+from robonav.robot import Action, Reflex, Simulator, random_worlds
+from robonav.robot import turn_to_clearer_side
 
 
 def test_planners_have_as_many_trials_as_the_learners():
@@ -307,6 +308,21 @@ def test_what_the_page_says_about_several_robots():
         assert sorted(rates, reverse=True) == rates
         hit = of_team("collision with a robot", method=name, robots=16)
         assert hit > of_team("collision with an obstacle", method=name, robots=16)
+
+
+def test_the_first_rule_is_freer_side():
+    sensing = Simulator(random_worlds(300, obstacles=30, seed=3)).sense()
+    ahead, _ = team.LOOKS
+    freer, right = team.TURNS
+    rng = np.random.default_rng(0)
+    usual = turn_to_clearer_side(sensing, rng)
+    np.testing.assert_array_equal(team.rule(ahead, freer)(sensing, rng), usual)
+    turned = team.rule(ahead, right)(sensing, rng)
+    np.testing.assert_array_equal(
+        turned, np.where(usual == Action.L60, Action.R60, usual)
+    )
+    case = {"looks": ahead, "turns": freer, "robots": 2}
+    assert team.evaluate_rule(case, 0, "quick")["collision with a robot"] > 0
 
 
 def test_what_the_page_says_about_rules():
