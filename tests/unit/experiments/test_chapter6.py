@@ -30,8 +30,7 @@ from robonav.experiments.ship import SEEDS_6, folder_of, ppo_weights
 from robonav.networks import load_weights
 from robonav.nnql import METHODS
 from robonav.planners import DynamicWindow
-from robonav.robot import Action, Reflex, Simulator, random_worlds
-from robonav.robot import turn_to_clearer_side
+from robonav.robot import Action, Reflex, Simulator, random_worlds, turn_to_clearer_side
 
 
 def test_planners_have_as_many_trials_as_the_learners():
