@@ -123,11 +123,6 @@ def entropy_subtracted_from_the_value(*case):
     return _found(*case[:5], -case[5])[0], _found(*case)[1]
 
 
-def entropy_subtracted_in_the_gradient(*case):
-    """The entropy is added, so its gradient is added, too, with its own minus. Your value has it right."""
-    return _found(*case)[0], _found(*case[:5], -case[5])[1]
-
-
 def entropy_without_its_gradient(*case):
     """The entropy has a gradient, too."""
     return _found(*case, entropy_slope=0.0)

@@ -123,6 +123,28 @@ def test_a_known_mistake_scores_less_and_gets_its_hint(exercise, mistake):
     assert result["feedback"].count("Hint: ") == result["feedback"].count("✗")
 
 
+NOT_USED = {
+    "remembers_nothing": "No robot remembers anything",
+    "wipes_its_memory": "No robot remembers anything",
+    "unchanged": "The policy has not learned",
+}
+
+
+def test_an_open_task_says_what_an_answer_never_uses():
+    """And it does not say so of answers that use it."""
+    named = {"escape": "never_leaves", "reinforce": "upside_down"}
+    for exercise in EXERCISES:
+        for name, mistake in mistakes(COURSE, exercise).items():
+            if exercise.name in named and name in {*NOT_USED, *named.values()}:
+                told = hints(grade(exercise, mistake))
+                said = {
+                    words
+                    for words in NOT_USED.values()
+                    if any(words in hint for hint in told)
+                }
+                assert said == ({NOT_USED[name]} if name in NOT_USED else set())
+
+
 @pytest.mark.parametrize(("exercise", "mistake"), MISTAKES)
 def test_a_known_mistake_is_no_matter_of_luck(exercise, mistake, passes):
     """On the cases of other secrets it scores less, too."""
