@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 import re
+import textwrap
 from pathlib import Path
 
 import citations
 import pytest
+from package_code import resolve
 
 
 def test_equation_and_algorithm_definitions() -> None:
@@ -104,3 +107,60 @@ def test_algorithm_length(package: Path, lines: int, right: bool) -> None:
     body = "    x = 1\n" * (lines - 1)
     source = f'def run():\n    """Planning, Algorithm 2.\n\n    Long text.\n    """\n\n{body}'
     assert (faults_of(package, source, "Algorithm 2") == []) is right
+
+
+BOOK = Path(__file__).resolve().parents[2] / "book"
+BESIDE_THE_ALGORITHMS = {
+    "modified policy iteration": "robonav.mdp.modified_policy_iteration",
+    "prioritised sweeping": "robonav.mdp.prioritized_sweeping",
+    "Monte Carlo prediction": "robonav.mdp.monte_carlo_prediction",
+    "Monte Carlo control": "robonav.mdp.monte_carlo_control",
+    "TD(0)": "robonav.mdp.td_prediction",
+    "linear Q-learning": "robonav.mdp.linear_q_learning",
+    "QMDP": "robonav.mdp.qmdp",
+    "point-based value iteration": "robonav.mdp.point_based_value_iteration",
+    "batch gradient descent": "robonav.networks.batch_gradient_descent",
+    "stochastic gradient descent": "robonav.networks.stochastic_gradient_descent",
+    "the use of L-BFGS": "robonav.networks.torch_lbfgs.lbfgs_iterates",
+    "A* on a grid": "robonav.lfd.astar.grid_astar",
+    "A* over the robot's actions": "robonav.lfd.astar.modified_astar",
+    "behaviour cloning": "robonav.lfd.behaviour_cloning",
+    "DAgger": "robonav.lfd.dagger",
+    "nearest neighbours": "robonav.lfd.NeighbourPolicy.__call__",
+    "NNQL": "robonav.nnql.nnql",
+    "online Q-learning": "robonav.nnql.online",
+    "NFQ": "robonav.nnql.nfq",
+    "DQN": "robonav.nnql.dqn",
+    "NIRL": "robonav.nirl.nirl",
+    "apprenticeship learning": "robonav.nirl.apprenticeship_learning",
+    "apprenticeship learning on the robot": "robonav.nirl.apprenticeship",
+    "relative entropy": "robonav.nirl.relative_entropy",
+    "the weights of relative entropy": "robonav.nirl.relative_entropy_weights",
+    "SCIRL": "robonav.nirl.scirl",
+    "maximum causal entropy": "robonav.nirl.maximum_causal_entropy",
+}
+"""The function of each method that the thesis has no numbered algorithm for, and of those of chapters 4 and 5."""
+
+
+def listed_on_pages() -> set[str]:
+    """The names of all functions whose source a page shows."""
+    pages = (path.read_text("utf-8") for path in BOOK.glob("*.md"))
+    return {
+        name for page in pages for name in re.findall(r"^`{3,}\{source\} (\S+)$", page, re.M)
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("method", BESIDE_THE_ALGORITHMS)
+def test_each_method_is_one_short_function_on_a_page(method: str) -> None:
+    """It counts its lines as those of Algorithms 1 to 10: with decorators and signature, without docstring."""
+    name = BESIDE_THE_ALGORITHMS[method]
+    assert name in listed_on_pages()
+    found = resolve(name)
+    assert inspect.isfunction(inspect.unwrap(found))
+    source = textwrap.dedent(inspect.getsource(found))
+    lines = citations.without_docstring(source).splitlines()
+    assert len(lines) <= citations.MOST_LINES
+
+
+def test_each_method_has_a_function_of_its_own() -> None:
+    assert len(set(BESIDE_THE_ALGORITHMS.values())) == len(BESIDE_THE_ALGORITHMS)
