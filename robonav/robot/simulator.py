@@ -373,8 +373,8 @@ class Simulator:
         rows = self._rows(robots)
         w, read = self.worlds, Sensing.empty(len(rows))
         _fast.in_threads(
-            _fast.sense, len(rows), rows, w.kinds, w.shapes, self.centres, w.size, self.poses, w.targets, w.keys,
-            self.steps, self.noise, read.ranges, read.walls, read.target_region, read.target_seen,
+            _fast.sense, len(rows), rows, w.kinds, w.shapes, self.centres, w.speeds, w.size, self.poses, w.targets,
+            w.keys, self.steps, self.noise, read.ranges, read.walls, read.target_region, read.target_seen,
         )  # fmt: skip
         return read
 

@@ -196,10 +196,11 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
                 "call reset with options={'reset_mask': ...} first"
             )
         reflexes = np.where(fresh, NO_REFLEX, self.settings.reflexes(before))
-        simulator.step(np.where(reflexes == NO_REFLEX, commands, reflexes))
+        self.sensing = simulator.second(
+            np.where(reflexes == NO_REFLEX, commands, reflexes)
+        )
         if fresh.any():  # robots whose episode has ended stood still; a new one begins
             self._restart(fresh)
-        self.sensing = simulator.sense()
         rewards = self.settings.rewards(before, self.sensing, simulator.outcome)
         reward = np.where(fresh, 0.0, rewards)
         ended = simulator.outcome != RUNNING
@@ -221,8 +222,6 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         for i in np.flatnonzero(ended):
             final_obs[i] = {name: value[i] for name, value in last.items()}
         self._restart(ended)
-        for name, rows in vars(self.simulator.sense(np.flatnonzero(ended))).items():
-            getattr(self.sensing, name)[ended] = rows
         everyone = np.ones(self.num_envs, dtype=np.bool_)
         info = self._info(np.where(ended, NO_REFLEX, reflexes), everyone)
         return info | {
@@ -231,12 +230,14 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
         }  # fmt: skip
 
     def _restart(self, chosen: NDArray[np.bool_]) -> None:
-        """Put the chosen robots into new worlds."""
+        """Put the chosen robots into new worlds, where they sense again."""
         index = np.flatnonzero(chosen)
         self.simulator.restart(index, self._next_worlds(index))
+        for name, rows in vars(self.simulator.sense(index)).items():
+            getattr(self.sensing, name)[index] = rows
 
     def _next_worlds(self, index: NDArray[np.intp]) -> Worlds:
-        return self.settings.next_worlds([self._generators[i] for i in index])
+        return self.settings.next_worlds([self._generators[i] for i in index.tolist()])
 
     def _chosen(self, mask: Any) -> NDArray[np.bool_]:
         """Return the robots (N,) for which ``reset`` begins an episode: those of the mask, by default all."""
@@ -288,10 +289,13 @@ class NavigationVectorEnv(gymnasium.vector.VectorEnv):
     ) -> dict[str, Any]:
         """Return Gymnasium's form of N infos: arrays, 0 for robots not chosen, and masks of the chosen robots."""
         values = {
-            "outcome": np.where(chosen, self.simulator.outcome, 0).astype(np.int64),
-            "reflex": np.where(chosen, reflexes, 0),
-            "pose": np.where(chosen[:, None], self.simulator.poses, 0.0),
+            "outcome": self.simulator.outcome.astype(np.int64),
+            "reflex": reflexes.copy(),
+            "pose": self.simulator.poses.copy(),
         }
+        if not chosen.all():
+            for value in values.values():
+                value[~chosen] = 0
         return values | {f"_{name}": chosen.copy() for name in values}
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from robonav.compilation import compiler
 
 from . import constants, geometry, random_numbers, sensing
@@ -17,6 +19,7 @@ from .constants import (
     OUT_OF_STEPS,
     RUNNING,
     SECTOR,
+    SENSOR_RANGE,
     TO_SECTOR,
     TO_TARGET,
     TURN_PROBABILITY,
@@ -30,7 +33,7 @@ from .geometry import (
     swept_distance,
 )
 from .random_numbers import DRIFTING, SLIPPING, uniform
-from .sensing import sense, target_region
+from .sensing import look, nearby, report, target_region, within
 
 compiled = compiler(constants, geometry, random_numbers, sensing)
 inlined = compiler(constants, geometry, random_numbers, sensing, inline=True)
@@ -51,7 +54,11 @@ def turned_to_target(command, heading, dx, dy):
     """The heading of a robot that turns to a target (dx, dy) away: to the target itself, or to its sector's middle."""
     if command == TO_TARGET:
         return math.atan2(dy, dx)
-    return wrap(heading + SECTOR * (target_region(dx, dy, heading) - 1))
+    return wrap(
+        heading
+        + SECTOR
+        * (target_region(dx, dy, heading, math.cos(heading), math.sin(heading)) - 1)
+    )
 
 
 # The kernels get the arrays of all worlds and the number i of one: to cut a row out of an array for each robot would
@@ -115,7 +122,8 @@ def destination(j, i, keys, targets, slip, speed, actions, poses, steps):
             action = actions[j] = other
     heading = wrap(heading + TURNS[action])
     length = -speed if action == BACKWARD else speed
-    return x + length * math.cos(heading), y + length * math.sin(heading), heading
+    c, s = math.cos(heading), math.sin(heading)
+    return x + length * c, y + length * s, heading, c, s
 
 
 @inlined
@@ -123,11 +131,50 @@ def outcome_of(clearance, dx, dy, steps, max_steps):
     """How the episode of a robot stands after a second, by its clearance on the way and its target (dx, dy) away."""
     if micrometres(clearance) < COLLISION_DISTANCE:
         return COLLIDED
-    if micrometres(math.hypot(dx, dy)) <= ARRIVAL_DISTANCE:
+    if within(ARRIVAL_DISTANCE, dx, dy):
         return ARRIVED
     if steps >= max_steps:
         return OUT_OF_STEPS
     return RUNNING
+
+
+@inlined
+def move(
+    j, i, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, near, number, actions, poses, centres,
+    headings, steps, outcome,
+):  # fmt: skip
+    """Move robot i for one second, record how its episode stands, and return the cosine and sine of its heading.
+
+    ``near`` has the ``number`` obstacles of its world that move or may be in its way.
+    """
+    x, y = poses[i, 0], poses[i, 1]
+    x1, y1, heading, c, s = destination(
+        j, i, keys, targets, slip, speed, actions, poses, steps
+    )
+    clearance = border_clearance(size, x, y, x1, y1)
+    clearance = min(clearance, COLLISION_DISTANCE + 1e-3)  # more does not matter
+    for n in range(number):
+        m = near[n]
+        if kinds[i, m] == NOTHING:
+            continue
+        # seen from the obstacle, which goes straight too, the robot goes along a segment
+        ax, ay = x - centres[i, m, 0], y - centres[i, m, 1]
+        if speeds[i, m] != 0.0:
+            drift_obstacle(
+                i, m, kinds, shapes, speeds, keys, steps[i], size, centres, headings
+            )
+        bx, by = x1 - centres[i, m, 0], y1 - centres[i, m, 1]
+        reach = shapes[i, m, 0] + shapes[i, m, 1] + clearance
+        if not passes_by(reach, ax, ay, bx, by):
+            distance = swept_distance(kinds[i, m], shapes[i, m], ax, ay, bx, by)
+            clearance = min(clearance, distance)
+    clearance = max(clearance, 0.0)
+    poses[i, 0], poses[i, 1], poses[i, 2] = x1, y1, heading
+    steps[i] += 1
+    outcome[i] = outcome_of(
+        clearance, targets[i, 0] - x1, targets[i, 1] - y1, steps[i], max_steps
+    )
+    return c, s
 
 
 @compiled
@@ -140,36 +187,19 @@ def step(
     A collision anywhere along the way counts. ``slip`` is (6, 6), or (0, 0) for none; where a robot slips, ``actions``
     (K,) gets what it did instead. Robots whose outcome is no longer RUNNING stand still.
     """
+    near = np.empty(kinds.shape[1], dtype=np.int64)
+    radius = speed + COLLISION_DISTANCE + 1e-2
     for j in range(start, stop):
         i = robots[j]
         if outcome[i] != RUNNING:
             continue
-        x, y = poses[i, 0], poses[i, 1]
-        x1, y1, heading = destination(
-            j, i, keys, targets, slip, speed, actions, poses, steps
+        number = nearby(
+            i, shapes, centres, speeds, poses[i, 0], poses[i, 1], radius, near
         )
-        clearance = border_clearance(size, x, y, x1, y1)
-        clearance = min(clearance, COLLISION_DISTANCE + 1e-3)  # more does not matter
-        for m in range(kinds.shape[1]):
-            if kinds[i, m] == NOTHING:
-                continue
-            # seen from the obstacle, which goes straight too, the robot goes along a segment
-            ax, ay = x - centres[i, m, 0], y - centres[i, m, 1]
-            if speeds[i, m] != 0.0:
-                drift_obstacle(
-                    i, m, kinds, shapes, speeds, keys, steps[i], size, centres, headings
-                )  # fmt: skip
-            bx, by = x1 - centres[i, m, 0], y1 - centres[i, m, 1]
-            near = shapes[i, m, 0] + shapes[i, m, 1] + clearance
-            if not passes_by(near, ax, ay, bx, by):
-                distance = swept_distance(kinds[i, m], shapes[i, m], ax, ay, bx, by)
-                clearance = min(clearance, distance)
-        clearance = max(clearance, 0.0)
-        poses[i, 0], poses[i, 1], poses[i, 2] = x1, y1, heading
-        steps[i] += 1
-        outcome[i] = outcome_of(
-            clearance, targets[i, 0] - x1, targets[i, 1] - y1, steps[i], max_steps
-        )
+        move(
+            j, i, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, near, number, actions, poses,
+            centres, headings, steps, outcome,
+        )  # fmt: skip
 
 
 @compiled
@@ -177,12 +207,27 @@ def second(
     start, stop, robots, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, noise, actions, poses,
     centres, headings, steps, outcome, ranges, walls, region, seen,
 ):  # fmt: skip
-    """One second, as ``step`` has it, and what the robots sense then: one call where a call costs much."""
-    step(
-        start, stop, robots, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, actions, poses,
-        centres, headings, steps, outcome,
-    )  # fmt: skip
-    sense(
-        start, stop, robots, kinds, shapes, centres, size, poses, targets, keys, steps, noise, ranges, walls, region,
-        seen,
-    )  # fmt: skip
+    """One second, as ``step`` has it, and what the robots sense then, as ``sense`` has it.
+
+    A robot looks for obstacles nearby once, before it moves, and computes the cosine of its heading once.
+    """
+    near = np.empty(kinds.shape[1], dtype=np.int64)
+    ranges[start:stop] = SENSOR_RANGE
+    walls[start:stop] = False
+    radius = speed + SENSOR_RANGE + 1e-2
+    for j in range(start, stop):
+        i = robots[j]
+        number = nearby(
+            i, shapes, centres, speeds, poses[i, 0], poses[i, 1], radius, near
+        )
+        if outcome[i] == RUNNING:
+            c, s = move(
+                j, i, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, near, number, actions, poses,
+                centres, headings, steps, outcome,
+            )  # fmt: skip
+        else:
+            c, s = math.cos(poses[i, 2]), math.sin(poses[i, 2])
+        look(
+            j, i, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
+        )  # fmt: skip
+    report(start, stop, robots, keys, steps, noise, ranges, walls)

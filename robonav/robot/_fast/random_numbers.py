@@ -33,16 +33,22 @@ def _mix(x):
     return x ^ (x >> np.uint64(16))
 
 
-# one signature: otherwise each literal argument compiles another, for 2 s
-@compiler(signature="f8(u4[::1], i8, i8, i8, i8)")
-def uniform(key, purpose, step, item, draw):
-    """Return a number in [0, 1) from a world's key (2,) and a counter: 8 draws an item, 1024 items a step."""
+# one signature each: otherwise every literal argument compiles another, for 2 s
+@compiler(signature="f8(u4, u4, i8, i8, i8, i8)")
+def draw_from(low, high, purpose, step, item, draw):
+    """Return a number in [0, 1) from the halves of a world's key and a counter: 8 draws an item, 1024 items a step."""
     counter = np.uint64((step * ITEMS + item) * 8 + draw)
-    first = _mix(counter * np.uint64(0x9E3779B9) + np.uint64(key[0]))
-    second = _mix(first ^ np.uint64(key[1]))
+    first = _mix(counter * np.uint64(0x9E3779B9) + np.uint64(low))
+    second = _mix(first ^ np.uint64(high))
     return (
         float(_mix(second + np.uint64(purpose) * np.uint64(0x632BE5AB))) / 4294967296.0
     )
+
+
+@compiler(signature="f8(u4[::1], i8, i8, i8, i8)")
+def uniform(key, purpose, step, item, draw):
+    """Return a number in [0, 1) from a world's key (2,) and a counter, as ``draw_from``."""
+    return draw_from(key[0], key[1], purpose, step, item, draw)
 
 
 @compiled

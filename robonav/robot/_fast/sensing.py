@@ -22,187 +22,224 @@ from .constants import (
 from .geometry import box_entry, micrometres
 from .random_numbers import SENSING, normal
 
-# Directions of the rays between the sectors k and k + 1, in the robot's frame
+# Directions of the rays between the sectors k and k + 1, in the robot's frame; the first five look to the left
 COSINES = np.array([math.cos((k + 0.5) * SECTOR) for k in range(SENSORS)])
 SINES = np.array([math.sin((k + 0.5) * SECTOR) for k in range(SENSORS)])
+LEFT = 5
 
 compiled = compiler(constants, geometry, random_numbers)
 inlined = compiler(constants, geometry, random_numbers, inline=True)
 
 
 @compiled
-def _sector(forward, left):
-    """Index 0..8 of the 40-degree sector that holds a point in the robot's frame; 0 looks ahead, counter-clockwise."""
-    return math.floor(math.atan2(left, forward) / SECTOR + 0.5) % SENSORS
+def sector_of(forward, left, margin):
+    """Index 0..8 of the 40-degree sector that holds a point in the robot's frame; 0 looks ahead, counter-clockwise.
 
-
-@compiled
-def _see(ranges, sector, distance):
-    if distance < ranges[sector]:
-        ranges[sector] = distance
-
-
-@compiled
-def _see_on_rays(ranges, along):
-    """Let both sectors beside each ray see what is on it; ray k lies between sectors k and k + 1.
-
-    ``along`` (9,) has the distances along the rays, infinity where nothing is. The loops that fill it have no branches,
-    so that the compiler turns them into vector instructions.
+    The sector is the number of rays that lie between the x axis and the point, which the cross product of a ray and the
+    point tells without its angle. -1 if the point lies within about ``margin`` radians of a ray: its angle has to tell.
     """
-    ranges[0] = min(ranges[0], along[0], along[SENSORS - 1])
-    for k in range(1, SENSORS):
-        ranges[k] = min(ranges[k], along[k], along[k - 1])
+    side, passed, on_ray = abs(left), 0, False
+    margin *= side + abs(forward)
+    for k in range(LEFT):
+        across = COSINES[k] * side - SINES[k] * forward
+        passed += across > 0.0
+        on_ray |= abs(across) <= margin
+    if on_ray:
+        return -1
+    return passed if left >= 0.0 else (SENSORS - passed) % SENSORS
 
 
 @compiled
-def see_circle(ranges, cosines, sines, along, x, y, radius):
+def _sector(forward, left):
+    """Index 0..8 of the sector that holds a point in the robot's frame."""
+    sector = sector_of(forward, left, 1e-9)
+    if sector < 0:
+        return math.floor(math.atan2(left, forward) / SECTOR + 0.5) % SENSORS
+    return sector
+
+
+@compiled
+def _see(j, ranges, sector, distance):
+    if distance < ranges[j, sector]:
+        ranges[j, sector] = distance
+
+
+@compiled
+def _see_on_ray(j, ranges, k, distance):
+    """Let both sectors beside a ray see what is on it; ray k lies between sectors k and k + 1."""
+    _see(j, ranges, k, distance)
+    _see(j, ranges, (k + 1) % SENSORS, distance)
+
+
+@inlined
+def see_circle(j, ranges, x, y, radius):
     """A circle centred at (x, y) in the robot's frame."""
-    distance = math.hypot(x, y)
+    distance = math.sqrt(x * x + y * y)
     if distance <= radius:
-        ranges[:] = 0.0
-        return
-    _see(ranges, _sector(x, y), distance - radius)
-    for k in range(SENSORS):
-        ahead = x * cosines[k] + y * sines[k]
-        across = x * sines[k] - y * cosines[k]
-        half_chord2 = radius * radius - across * across
-        meets = ahead > 0.0 and half_chord2 >= 0.0
-        root = math.sqrt(half_chord2 if half_chord2 >= 0.0 else 0.0)
-        along[k] = ahead - root if meets else math.inf
-    _see_on_rays(ranges, along)
+        for k in range(SENSORS):
+            ranges[j, k] = 0.0
+    else:
+        _see(j, ranges, _sector(x, y), distance - radius)
+        for k in range(SENSORS):
+            ahead = x * COSINES[k] + y * SINES[k]
+            across = x * SINES[k] - y * COSINES[k]
+            half_chord2 = radius * radius - across * across
+            if half_chord2 >= 0.0 and ahead > 0.0:
+                _see_on_ray(j, ranges, k, ahead - math.sqrt(half_chord2))
 
 
 @compiled
-def _see_rectangle(
-    ranges, cosines, sines, along, x, y, half_length, half_width, turned
-):
+def _see_rectangle(j, ranges, x, y, half_length, half_width, turned):
     """A rectangle centred at (x, y) in the robot's frame, its length turned by ``turned`` against the heading."""
     c, s = math.cos(turned), math.sin(turned)
     px, py = -(c * x + s * y), -(c * y - s * x)  # the robot in the rectangle's frame
     if abs(px) <= half_length and abs(py) <= half_width:
-        ranges[:] = 0.0
+        for k in range(SENSORS):
+            ranges[j, k] = 0.0
         return
     nx = min(max(px, -half_length), half_length) - px
     ny = min(max(py, -half_width), half_width) - py
-    distance = math.hypot(nx, ny)
+    distance = math.sqrt(nx * nx + ny * ny)
     if distance > SENSOR_RANGE + 1e-6:  # and every ray is longer
         return
-    _see(ranges, _sector(c * nx - s * ny, s * nx + c * ny), distance)
+    _see(j, ranges, _sector(c * nx - s * ny, s * nx + c * ny), distance)
     for k in range(SENSORS):
-        dx = c * cosines[k] + s * sines[k]
-        dy = c * sines[k] - s * cosines[k]
-        enter_x, leave_x = _slab(px, dx, half_length)
-        enter_y, leave_y = _slab(py, dy, half_width)
-        enter, leave = max(enter_x, enter_y), min(leave_x, leave_y)
-        along[k] = enter if 0.0 <= enter <= leave else math.inf
-    _see_on_rays(ranges, along)
+        dx = c * COSINES[k] + s * SINES[k]
+        dy = c * SINES[k] - s * COSINES[k]
+        # no division where the ray's line passes the rectangle for certain
+        reach = half_length * abs(dy) + half_width * abs(dx) + 1e-9
+        if abs(px * dy - py * dx) < reach:
+            enter, leave = box_entry(px, py, dx, dy, half_length, half_width)
+            if 0.0 <= enter <= leave:
+                _see_on_ray(j, ranges, k, enter)
 
 
-@compiled
-def _slab(position, direction, half):
-    """Where a line enters and leaves the strip from -half to half, as ``box_entry`` says, without a branch."""
-    t0, t1 = (-half - position) / direction, (half - position) / direction
-    inside, along = abs(position) <= half, direction == 0.0
-    enter = (-math.inf if inside else math.inf) if along else min(t0, t1)
-    leave = (math.inf if inside else -math.inf) if along else max(t0, t1)
-    return enter, leave
+@inlined
+def nearby(i, shapes, centres, speeds, x, y, radius, near):
+    """Put into ``near`` the obstacle slots of world i that move or may lie within ``radius`` of (x, y); count them."""
+    number = 0
+    for m in range(shapes.shape[1]):
+        dx, dy = centres[i, m, 0] - x, centres[i, m, 1] - y
+        # no root: a box reaches less far than the sum of its halves
+        reach = radius + shapes[i, m, 0] + shapes[i, m, 1]
+        # the next one is written over it, unless it counts; a branch would take longer
+        near[number] = m
+        number += (dx * dx + dy * dy < reach * reach) | (speeds[i, m] != 0.0)
+    return number
 
 
-@compiled
+@inlined
 def sense_obstacles(
-    i, kinds, shapes, centres, x, y, heading, cosines, sines, along, ranges
+    j, i, kinds, shapes, centres, x, y, heading, c, s, near, number, ranges
 ):
-    """Least distance in each sector to the obstacles of world i.
+    """Least distance in each sector to the obstacles of world i, in row j; ``c`` and ``s`` belong to the heading.
 
     Seen from outside, a convex shape's distance falls and then rises with the bearing. So its least distance in a
     sector is that of its nearest point, if the sector holds it, or else lies on one of the sector's two rays.
     """
-    c, s = math.cos(heading), math.sin(heading)
-    for m in range(kinds.shape[1]):
-        kind = kinds[i, m]
-        half_length, half_width = shapes[i, m, 0], shapes[i, m, 1]
+    for n in range(number):
+        m = near[n]
         dx, dy = centres[i, m, 0] - x, centres[i, m, 1] - y
-        near = SENSOR_RANGE + half_length + half_width
-        if kind == NOTHING or dx * dx + dy * dy >= near * near:
+        reach = SENSOR_RANGE + shapes[i, m, 0] + shapes[i, m, 1]
+        if dx * dx + dy * dy >= reach * reach or kinds[i, m] == NOTHING:
             continue
         forward, left = c * dx + s * dy, c * dy - s * dx
-        if kind == CIRCLE:
-            see_circle(ranges, cosines, sines, along, forward, left, half_length)
+        if kinds[i, m] == CIRCLE:
+            see_circle(j, ranges, forward, left, shapes[i, m, 0])
         else:
             turned = shapes[i, m, 2] - heading
             _see_rectangle(
-                ranges, cosines, sines, along, forward, left, half_length, half_width, turned
+                j, ranges, forward, left, shapes[i, m, 0], shapes[i, m, 1], turned
             )  # fmt: skip
 
 
 @compiled
-def sense_borders(size, x, y, heading, cosines, sines, ranges, walls):
-    """Let the map's borders shorten the ranges; where one is the nearest thing, the wall flag is set.
+def sense_borders(j, size, x, y, c, s, ranges, walls):
+    """Let the map's borders shorten the ranges of row j; where one is the nearest thing, the wall flag is set.
 
     In a sector the nearest border point is a wall's nearest point or lies on one of the sector's rays.
     """
-    margin = min(min(x, size - x), min(y, size - y))
-    if margin >= SENSOR_RANGE:
+    if min(x, size - x, y, size - y) <= 0.0:  # it went through a wall, and has collided
+        for k in range(SENSORS):
+            ranges[j, k], walls[j, k] = 0.0, True
         return
-    if margin <= 0.0:  # it went through a wall, and has collided
-        ranges[:], walls[:] = 0.0, True
-        return
-    c, s = math.cos(heading), math.sin(heading)
     for distance, nx, ny in (
         (x, -1.0, 0.0),
         (size - x, 1.0, 0.0),
         (y, 0.0, -1.0),
         (size - y, 0.0, 1.0),
     ):
-        sector = _sector(c * nx + s * ny, c * ny - s * nx)
-        if distance < ranges[sector]:
-            ranges[sector], walls[sector] = distance, True
+        if distance < SENSOR_RANGE:
+            sector = _sector(c * nx + s * ny, c * ny - s * nx)
+            if distance < ranges[j, sector]:
+                ranges[j, sector], walls[j, sector] = distance, True
+    half = size / 2
     for k in range(SENSORS):
-        dx = c * cosines[k] - s * sines[k]
-        dy = s * cosines[k] + c * sines[k]
-        _, distance = box_entry(x - size / 2, y - size / 2, dx, dy, size / 2, size / 2)
+        dx = c * COSINES[k] - s * SINES[k]
+        dy = s * COSINES[k] + c * SINES[k]
+        _, distance = box_entry(x - half, y - half, dx, dy, half, half)
         for sector in (k, (k + 1) % SENSORS):
-            if distance < ranges[sector]:
-                ranges[sector], walls[sector] = distance, True
+            if distance < ranges[j, sector]:
+                ranges[j, sector], walls[j, sector] = distance, True
 
 
 @compiled
-def _with_error(distance, keys, i, step, k, noise):
-    """Round a distance to a micrometre, and let noise disturb it if something is seen."""
-    distance = micrometres(distance)
-    if noise > 0.0 and distance < SENSOR_RANGE:
-        error = noise * normal(keys[i], SENSING, step, k)
-        distance = micrometres(min(max(distance + error, 0.0), SENSOR_RANGE))
-    return distance
+def within(distance, dx, dy):
+    """Whether a point (dx, dy) away is at most ``distance`` away, to the micrometre."""
+    square = dx * dx + dy * dy
+    if abs(square - distance * distance) > 1e-4 * distance:  # no doubt about it
+        return square < distance * distance
+    return micrometres(math.hypot(dx, dy)) <= distance
 
 
 @compiled
-def target_region(dx, dy, heading):
-    """Number 1 to 9 of the sector that holds a target (dx, dy) away from the robot."""
-    bearing = math.atan2(dy, dx) - heading
-    return 1 + math.floor(micrometres(bearing) / SECTOR + 0.5) % SENSORS
+def target_region(dx, dy, heading, c, s):
+    """Number 1 to 9 of the sector that holds a target (dx, dy) away; ``c`` and ``s`` belong to the heading."""
+    sector = sector_of(c * dx + s * dy, c * dy - s * dx, 1e-6)
+    if sector < 0:
+        bearing = micrometres(math.atan2(dy, dx) - heading)
+        return 1 + math.floor(bearing / SECTOR + 0.5) % SENSORS
+    return 1 + sector
+
+
+@compiled
+def report(start, stop, robots, keys, steps, noise, ranges, walls):
+    """Round the ranges of rows ``start`` to ``stop - 1`` to a micrometre, and let noise disturb what is seen."""
+    flat, flags = ranges[start:stop].reshape(-1), walls[start:stop].reshape(-1)
+    for k in range(len(flat)):
+        flat[k] = micrometres(flat[k])
+    if noise > 0.0:
+        for j in range(start, stop):
+            i = robots[j]
+            for k in range(SENSORS):
+                if ranges[j, k] < SENSOR_RANGE:
+                    error = noise * normal(keys[i], SENSING, steps[i], k)
+                    disturbed = min(max(ranges[j, k] + error, 0.0), SENSOR_RANGE)
+                    ranges[j, k] = micrometres(disturbed)
+    for k in range(len(flat)):
+        flags[k] &= flat[k] < SENSOR_RANGE
 
 
 @inlined
-def report(
-    j, i, near, border, poses, targets, keys, steps, noise, ranges, walls, region, seen
+def look(
+    j, i, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
 ):  # fmt: skip
-    """Put what robot i reads, of the distances ``near`` (9,), into row j: ranges and walls, target region and seen."""
-    for k in range(SENSORS):
-        distance = near[k]
-        if distance < SENSOR_RANGE:  # otherwise rounding and noise change nothing
-            distance = _with_error(distance, keys, i, steps[i], k, noise)
-        ranges[j, k] = distance
-        walls[j, k] = border[k] and distance < SENSOR_RANGE
-    dx, dy = targets[i, 0] - poses[i, 0], targets[i, 1] - poses[i, 1]
-    seen[j] = micrometres(math.hypot(dx, dy)) <= SENSOR_RANGE
-    region[j] = target_region(dx, dy, poses[i, 2])
+    """Put what robot i reads into row j, its ranges still to be rounded; ``c`` and ``s`` belong to its heading."""
+    x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
+    sense_obstacles(
+        j, i, kinds, shapes, centres, x, y, heading, c, s, near, number, ranges
+    )
+    if min(x, size - x, y, size - y) < SENSOR_RANGE:
+        sense_borders(j, size, x, y, c, s, ranges, walls)
+    dx, dy = targets[i, 0] - x, targets[i, 1] - y
+    seen[j] = within(SENSOR_RANGE, dx, dy)
+    region[j] = target_region(dx, dy, heading, c, s)
 
 
 @compiled
 def sense(
-    start, stop, robots, kinds, shapes, centres, size, poses, targets, keys, steps, noise, ranges, walls, region,
-    seen,
+    start, stop, robots, kinds, shapes, centres, speeds, size, poses, targets, keys, steps, noise, ranges, walls,
+    region, seen,
 ):  # fmt: skip
     """What ``robots[start]`` to ``robots[stop - 1]`` read: ranges and walls (K, 9), target region and seen (K,).
 
@@ -210,20 +247,19 @@ def sense(
     cut out of an array: ``motion.py`` says why. ``noise`` is the standard deviation, in metres, of an error on every
     range that sees something.
     """
-    along, near = np.empty(SENSORS), np.empty(SENSORS)
-    border = np.empty(SENSORS, dtype=np.bool_)
+    near = np.empty(kinds.shape[1], dtype=np.int64)
+    ranges[start:stop] = SENSOR_RANGE
+    walls[start:stop] = False
     for j in range(start, stop):
         i = robots[j]
-        x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
-        for k in range(SENSORS):
-            near[k], border[k] = SENSOR_RANGE, False
-        sense_obstacles(
-            i, kinds, shapes, centres, x, y, heading, COSINES, SINES, along, near
-        )
-        sense_borders(size, x, y, heading, COSINES, SINES, near, border)
-        report(
-            j, i, near, border, poses, targets, keys, steps, noise, ranges, walls, region, seen
+        number = nearby(
+            i, shapes, centres, speeds, poses[i, 0], poses[i, 1], SENSOR_RANGE, near
         )  # fmt: skip
+        c, s = math.cos(poses[i, 2]), math.sin(poses[i, 2])
+        look(
+            j, i, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
+        )  # fmt: skip
+    report(start, stop, robots, keys, steps, noise, ranges, walls)
 
 
 @compiled

@@ -36,7 +36,12 @@ def in_threads(
         kernel(0, worlds, *arguments)
         return
     if _pool is None:
-        _pool = ThreadPoolExecutor(_CORES, thread_name_prefix="robonav")
+        _pool = ThreadPoolExecutor(_CORES - 1, thread_name_prefix="robonav")
     parts = min(_CORES, worlds // least)
     cuts = [worlds * k // parts for k in range(parts + 1)]
-    list(_pool.map(lambda k: kernel(cuts[k], cuts[k + 1], *arguments), range(parts)))
+    others = [
+        _pool.submit(kernel, cuts[k], cuts[k + 1], *arguments) for k in range(1, parts)
+    ]
+    kernel(0, cuts[1], *arguments)  # a part for this thread, which would only wait
+    for other in others:
+        other.result()

@@ -18,10 +18,9 @@ from .._fast.constants import (
     NOTHING,
     RUNNING,
     SENSOR_RANGE,
-    SENSORS,
     SPARE,
 )
-from .._fast.drawing import draw_obstacles, reachable
+from .._fast.drawing import draw_obstacles, empty_grid, reachable
 from .._fast.geometry import (
     border_clearance,
     micrometres,
@@ -31,12 +30,13 @@ from .._fast.geometry import (
 )
 from .._fast.motion import destination, drift_obstacle, outcome_of
 from .._fast.sensing import (
-    COSINES,
-    SINES,
+    nearby,
     report,
     see_circle,
     sense_borders,
     sense_obstacles,
+    target_region,
+    within,
 )
 
 ROBOT_RADIUS = 1.0  # what comes nearer than this to a robot's centre has hit it
@@ -54,6 +54,8 @@ def draw_teams(
     The starts and targets (R, 2) are those of every map. With one robot, the maps are those of
     :func:`robonav.robot._fast.draw_worlds`.
     """
+    empty = empty_grid(size, SPARE)
+    closed, stack = np.empty_like(empty), np.empty(empty.size, dtype=np.int64)
     for i in range(start, stop):
         kinds[i] = NOTHING
         found[i] = False
@@ -64,50 +66,51 @@ def draw_teams(
             )  # fmt: skip
             for r in range(len(starts)):
                 found[i] = found[i] and reachable(
-                    kinds[i, :still], shapes[i, :still], centres[i, :still], size,
-                    starts[r, 0], starts[r, 1], targets[r, 0], targets[r, 1], SPARE,
+                    i, still, kinds, shapes, centres, starts[r, 0], starts[r, 1], targets[r, 0], targets[r, 1], SPARE,
+                    empty, closed, stack,
                 )  # fmt: skip
             if found[i]:
                 break
 
 
 @compiled
-def sense_robots(j, first, last, poses, outcome, along, ranges):
-    """Let robot j see the others of ``first`` to ``last - 1``, its map's, that are running: circles of 1 m."""
-    x, y = poses[j, 0], poses[j, 1]
-    c, s = math.cos(poses[j, 2]), math.sin(poses[j, 2])
+def sense_robots(j, i, first, last, poses, outcome, c, s, ranges):
+    """Let robot i see the others of ``first`` to ``last - 1``, its map's, that are running: circles of 1 m."""
+    x, y = poses[i, 0], poses[i, 1]
     near = SENSOR_RANGE + ROBOT_RADIUS
     for k in range(first, last):
         dx, dy = poses[k, 0] - x, poses[k, 1] - y
-        if k == j or outcome[k] != RUNNING or dx * dx + dy * dy >= near * near:
+        if k == i or outcome[k] != RUNNING or dx * dx + dy * dy >= near * near:
             continue
-        see_circle(
-            ranges, COSINES, SINES, along, c * dx + s * dy, c * dy - s * dx, ROBOT_RADIUS
-        )  # fmt: skip
+        forward, left = c * dx + s * dy, c * dy - s * dx
+        see_circle(j, ranges, forward, left, ROBOT_RADIUS)
 
 
 @compiled
 def sense(
-    start, stop, robots, team, kinds, shapes, centres, size, poses, outcome, targets, keys, steps, noise, ranges, walls,
-    region, seen,
+    start, stop, robots, team, kinds, shapes, centres, speeds, size, poses, outcome, targets, keys, steps, noise,
+    ranges, walls, region, seen,
 ):  # fmt: skip
     """What ``robots[start]`` to ``robots[stop - 1]`` read, in maps of ``team`` robots: as the kernel of one robot."""
-    along, near = np.empty(SENSORS), np.empty(SENSORS)
-    border = np.empty(SENSORS, dtype=np.bool_)
+    ranges[start:stop] = SENSOR_RANGE
+    walls[start:stop] = False
+    near = np.empty(kinds.shape[1], dtype=np.int64)
     for j in range(start, stop):
         robot = robots[j]
         i = robot // team
         x, y, heading = poses[robot, 0], poses[robot, 1], poses[robot, 2]
-        for k in range(SENSORS):
-            near[k], border[k] = SENSOR_RANGE, False
+        c, s = math.cos(heading), math.sin(heading)
+        number = nearby(i, shapes, centres, speeds, x, y, SENSOR_RANGE, near)
         sense_obstacles(
-            i, kinds, shapes, centres, x, y, heading, COSINES, SINES, along, near
+            j, i, kinds, shapes, centres, x, y, heading, c, s, near, number, ranges
         )
-        sense_robots(robot, i * team, (i + 1) * team, poses, outcome, along, near)
-        sense_borders(size, x, y, heading, COSINES, SINES, near, border)
-        report(
-            j, robot, near, border, poses, targets, keys, steps, noise, ranges, walls, region, seen
-        )  # fmt: skip
+        sense_robots(j, robot, i * team, (i + 1) * team, poses, outcome, c, s, ranges)
+        if min(x, size - x, y, size - y) < SENSOR_RANGE:
+            sense_borders(j, size, x, y, c, s, ranges, walls)
+        dx, dy = targets[robot, 0] - x, targets[robot, 1] - y
+        seen[j] = within(SENSOR_RANGE, dx, dy)
+        region[j] = target_region(dx, dy, heading, c, s)
+    report(start, stop, robots, keys, steps, noise, ranges, walls)
 
 
 @compiled
@@ -129,7 +132,7 @@ def step(
             if outcome[j] != RUNNING:
                 continue
             running += 1
-            x1, y1, heading = destination(
+            x1, y1, heading, _, _ = destination(
                 j, j, keys, targets, slip, speed, actions, poses, steps
             )
             after[r, 0], after[r, 1], after[r, 2] = x1, y1, heading

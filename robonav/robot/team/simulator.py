@@ -115,8 +115,8 @@ class TeamSimulator(Simulator):
         rows = self._rows(robots)
         w, read = self.worlds, Sensing.empty(len(rows))
         in_threads(
-            _fast.sense, len(rows), rows, self.teams.robots, w.kinds, w.shapes, self.centres, w.size, self.poses,
-            self.outcome, self._targets, self._keys, self.steps, self.noise, read.ranges, read.walls,
+            _fast.sense, len(rows), rows, self.teams.robots, w.kinds, w.shapes, self.centres, w.speeds, w.size,
+            self.poses, self.outcome, self._targets, self._keys, self.steps, self.noise, read.ranges, read.walls,
             read.target_region, read.target_seen,
         )  # fmt: skip
         return read

@@ -346,6 +346,44 @@ def test_noise_and_slips_do_not_depend_on_the_batch():
 # One of a batch is one alone, whatever the threads
 
 
+@pytest.mark.parametrize("speed", [2.0, 25.0])
+def test_a_second_is_a_step_and_then_a_look(speed):
+    worlds = random_worlds(600, obstacles=20, moving=4, seed=8)
+    rng = np.random.default_rng(8)
+    together, apart = (
+        Simulator(worlds, speed=speed, noise=0.2, slip=neighbour_slip(0.2))
+        for _ in range(2)
+    )
+    for _ in range(30):
+        actions = rng.integers(0, 6, 600)
+        apart.step(actions.copy())
+        expected, got = apart.sense(), together.second(actions.copy())
+        for name, values in vars(expected).items():
+            np.testing.assert_array_equal(getattr(got, name), values)
+    for name in ("poses", "centres", "headings", "steps", "outcome"):
+        np.testing.assert_array_equal(getattr(together, name), getattr(apart, name))
+
+
+@pytest.mark.parametrize("speed", [2.0, 25.0])
+def test_a_step_collides_where_its_clearance_is_less_than_a_metre(speed):
+    worlds = random_worlds(600, obstacles=30, seed=9)
+    simulator = Simulator(worlds, speed=speed)
+    rng = np.random.default_rng(9)
+    collided = 0
+    for _ in range(10):
+        before, running = simulator.poses.copy(), simulator.outcome == RUNNING
+        simulator.step(rng.integers(0, 6, 600))
+        for i in np.flatnonzero(running):
+            clearance = swept_clearance(
+                worlds.kinds[i], worlds.shapes[i], worlds.centres[i], worlds.centres[i], worlds.size,
+                *before[i, :2], *simulator.poses[i, :2], 10.0,
+            )  # fmt: skip
+            hit = OUTCOMES[simulator.outcome[i]] == "collided"
+            assert hit == (round(clearance, 6) < 1.0)
+            collided += hit
+    assert collided > 50
+
+
 def test_batch_of_one_is_single_bit_for_bit():
     n = 1500  # enough for the work to be shared among threads
     worlds = random_worlds(n, obstacles=12, moving=4, seed=77)

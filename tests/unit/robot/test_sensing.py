@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
@@ -13,8 +12,7 @@ from hypothesis import strategies as st
 
 from robonav.robot import SENSOR_RANGE, Simulator, make_world, random_worlds, sense
 from robonav.robot._fast import CIRCLE, SECTOR, SENSORS
-from robonav.robot._fast.geometry import box_entry
-from robonav.robot._fast.sensing import _slab
+from robonav.robot._fast.sensing import sector_of, within
 
 SEGMENTS = (
     512  # a quarter circle; inscribed and circumscribed polygons bound the true circle
@@ -300,17 +298,29 @@ def test_circles_agree_with_shapely_to_the_micrometre():
             assert (ranges[grazing] <= expected[grazing] + MICROMETRE).all()
 
 
-def test_strips_without_branches_are_the_box_of_the_geometry():
-    numbers = [-7.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 7.0]
-    misses = 0
-    for x, y, dx, dy in itertools.product(numbers, repeat=4):
-        if dx == dy == 0.0:
-            continue  # no ray
-        enter, leave = box_entry(x, y, dx, dy, 2.0, 1.0)
-        (enter_x, leave_x), (enter_y, leave_y) = _slab(x, dx, 2.0), _slab(y, dy, 1.0)
-        entered, left = max(enter_x, enter_y), min(leave_x, leave_y)
-        hit = 0.0 <= enter <= leave
-        assert (0.0 <= entered <= left) == hit
-        assert not hit or entered == enter
-        misses += not hit
-    assert 1000 < misses < 6000
+def test_a_sector_by_cross_products_is_that_of_the_angle():
+    angles = np.random.default_rng(0).uniform(-np.pi, np.pi, 20_000)
+    rays = (np.arange(9) + 0.5) * SECTOR
+    near_rays = (rays[:, None] + np.array([-1e-3, -2e-9, 2e-9, 1e-3])).ravel()
+    for angle in [*angles, *near_rays]:
+        x, y = 7.0 * math.cos(angle), 7.0 * math.sin(angle)
+        expected = math.floor(math.atan2(y, x) / SECTOR + 0.5) % SENSORS
+        assert sector_of(x, y, 1e-10) == expected
+
+
+def test_the_sector_of_a_point_on_a_ray_is_left_to_its_angle():
+    for ray in (np.arange(9) + 0.5) * SECTOR:
+        for angle in (ray - 1e-8, ray, ray + 1e-8):
+            assert sector_of(5.0 * math.cos(angle), 5.0 * math.sin(angle), 1e-7) == -1
+
+
+def test_within_decides_to_the_micrometre():
+    for bearing in np.linspace(-3, 3, 50):
+        dx, dy = math.cos(bearing), math.sin(bearing)
+        for beyond, expected in (
+            (-1.0, True),
+            (4e-7, True),
+            (6e-7, False),
+            (1.0, False),
+        ):
+            assert within(10.0, (10.0 + beyond) * dx, (10.0 + beyond) * dy) == expected

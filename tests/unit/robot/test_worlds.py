@@ -21,7 +21,8 @@ from robonav.robot import (
     save_worlds,
     straight,
 )
-from robonav.robot._fast import CIRCLE, RECTANGLE, reachable
+from robonav.robot._fast import CIRCLE, RECTANGLE
+from robonav.robot._fast.drawing import empty_grid, reachable
 
 FROZEN_DIGESTS = [
     "e7423afab328a43eb6f57bbb310c7f93bd050907c3767dd95178730c6e80b9bc",
@@ -92,9 +93,11 @@ def test_flood_fill_agrees_with_scipy_where_there_may_be_no_way():
     }
     for expected, rectangles in walls.items():
         w = make_world(rectangles=rectangles)
+        empty = empty_grid(100.0, 2.0)
         got = reachable(
-            w.kinds[0], w.shapes[0], w.centres[0], 100.0, 10.0, 10.0, 90.0, 90.0, 2.0
-        )
+            0, 1, w.kinds, w.shapes, w.centres, 10.0, 10.0, 90.0, 90.0, 2.0, empty,
+            np.empty_like(empty), np.empty(empty.size, dtype=np.int64),
+        )  # fmt: skip
         assert got is expected
 
 
