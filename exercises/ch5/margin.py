@@ -14,9 +14,11 @@ the policies, and the loss of a policy is its difference under the present $\the
 feature's probability is multiplied by $e^{\eta \cdot \text{gain}}$, a policy's by
 $e^{-\eta \cdot \text{loss}}$, with a small $\eta$, and each player's probabilities
 are scaled to sum to one. The probabilities of one round go around the solution for
-ever, but their mean over all rounds comes as near to it as you like. There may be
-several best $\theta$; any of them is correct. The margin may be smaller than the best
-one by a hundredth of the largest absolute number in the differences.
+ever, but their mean over all rounds comes as near to it as you like: with differences
+between $-1$ and 1, the error of $n$ rounds is about $\eta + \log(k) / (\eta n)$. So
+choose $\eta$ first, and then the number of rounds. There may be several best $\theta$;
+any of them is correct. The margin may be smaller than the best one by a hundredth of
+the largest absolute number in the differences.
 """
 
 import numpy as np

@@ -124,7 +124,16 @@ class Evidence:
                 continue
             if (fits := self._fits(name)) > best:
                 best, hint = fits, said
-        return hint or observation.advice or _plain_hint(observation)
+        hint = hint or observation.advice or _plain_hint(observation)
+        return None if hint == NEAR and self._any_is_far() else hint
+
+    def _any_is_far(self) -> bool:
+        """Whether a wrong answer is not even nearly right, so that another one may be near by chance."""
+        return any(
+            one.verdict == "wrong"
+            and not compare.is_near(one.counted(one.got), one.expected)
+            for one in self.observations
+        )
 
     def _fits(self, name: str) -> int:
         """Return how many wrong answers a mistake explains, or 0 if an answer that was right excludes it."""

@@ -57,6 +57,11 @@ def first_action_unseen(*arguments):
     return _meant(*arguments, unseen=0)
 
 
+def prior_where_unseen(states, done, slip, prior, size):
+    """Return -1 for a state that was never seen."""
+    return _meant(states, done, slip, prior, size, unseen=int(np.argmax(prior)))
+
+
 def products(states, done, slip, prior, size):
     """A product of many probabilities underflows to zero: add their logarithms."""
     meant = np.full(size, -1)

@@ -105,3 +105,26 @@ def distance_of_the_old(weights, found, expert, scale):
     new, _ = _moved(weights, found, expert, scale)
     rest = (expert - weights @ found[:-1]) / scale
     return new, float(np.linalg.norm(rest))
+
+
+def _measured(new, found, expert, scale):
+    """These probabilities, with the distance of their mixture from the expert."""
+    return new, float(np.linalg.norm((expert - new @ found) / scale))
+
+
+def sum_to_more_and_measured(weights, found, expert, scale):
+    """The probabilities sum to one: the old ones shrink when the new policy gets its share."""
+    new, _ = _moved(weights, found, expert, scale, shrinks=False)
+    return _measured(new, found, expert, scale)
+
+
+def share_of_the_old_and_measured(weights, found, expert, scale):
+    """The share along the segment is the new policy's probability, not that of the old mixture."""
+    new, _ = share_of_the_old(weights, found, expert, scale)
+    return _measured(new, found, expert, scale)
+
+
+def own_units_throughout(weights, found, expert, scale):
+    """Divide every feature by its scale before you measure a distance."""
+    new, _ = _moved(weights, found, expert, scale, scaled=False)
+    return new, float(np.linalg.norm(expert - new @ found))

@@ -20,8 +20,17 @@ def overflows(log_p, log_q, features, most):
         return weights @ features, 1 / (weights @ weights)
 
 
+def overflows_in_the_ratio(log_p, log_q, features, most):
+    """The ratios overflow or underflow: first subtract the largest logarithm, which cancels later."""
+    with np.errstate(all="ignore"):
+        weights = np.exp(log_p - log_q)
+        weights = np.minimum(weights / weights.mean(), most)
+        weights /= weights.sum()
+        return weights @ features, 1 / (weights @ weights)
+
+
 def no_cut(log_p, log_q, features, most):
-    """Clip the weights after you scaled them to the mean one: the limit has no meaning for unscaled weights."""
+    """No weight is clipped. Scale the weights to the mean one, and then lower those above the limit to the limit."""
     return _estimate(log_p - log_q, features, most, cut=False)
 
 

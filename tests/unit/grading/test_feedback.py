@@ -15,7 +15,7 @@ from robonav.grading.check import InProcessCalls, check_submission, graded
 from robonav.grading.course import Course
 from robonav.grading.evidence import Evidence
 from robonav.grading.grade import Part, Unaccepted, exercise_grade
-from robonav.grading.reference import Case, Solutions
+from robonav.grading.reference import Case, Solutions, solution
 from robonav.grading.session import Session
 from robonav.grading.submission import Submission
 
@@ -47,6 +47,20 @@ def test_a_hint_never_contradicts_a_part_that_passed():
     said = feedback("2.2", improve)["feedback"]
     assert "Keep the current action where the gain is at most the tolerance" in said
     assert "always" not in said
+
+
+@pytest.mark.parametrize("chances_are_right", [True, False])
+def test_a_number_is_called_nearly_right_only_if_no_other_is_far_off(chances_are_right):
+    """A distance can come near by chance if the probabilities are wrong."""
+
+    def projected(weights, found, expert, scale):
+        right, left = solved(weights, found, expert, scale)
+        equal = np.full(len(right), 1 / len(right))
+        return right if chances_are_right else equal, 1.003 * left
+
+    solved = solution(COURSE, COURSE.named("5.3"))
+    said = feedback("5.3", projected)["feedback"]
+    assert ("All numbers are nearly right." in said) == chances_are_right
 
 
 def test_numbers_that_are_none_get_a_hint():
