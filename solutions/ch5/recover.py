@@ -3,8 +3,8 @@ acted optimally for a reward $r(s) = \theta \cdot f(s)$ that you do not know. Yo
 given the cells that it visited. Find weights $\theta$ for which an optimal robot drives
 like the expert; several are as good. The check plans with your weights, drives the
 robot in this grid and in another one with the same kinds of terrain, and compares the
-true reward of both trajectories. Any method of the chapter is fine: projection, the widest
-margin, or maximum entropy.
+true reward of both trajectories. Any method of the chapter is fine: projection, the
+widest margin, or maximum entropy.
 """
 
 import numpy as np
