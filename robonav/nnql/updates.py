@@ -66,9 +66,9 @@ def q_targets(
     array([0.4 , 0.85])
     """
     taken = np.arange(q.shape[-1]) == action[..., None]
-    target = (reward + discount * next_value)[..., None]
+    td_target = (reward + discount * next_value)[..., None]
     alpha = learning_rate[..., None]
-    moved = q + alpha * (target - q)  # Eq. (4.9)
+    moved = q + alpha * (td_target - q)  # Eq. (4.9)
     return np.where(taken, moved, q)
 
 

@@ -49,7 +49,7 @@ FAULTS = (
         replace(OF_THE_TABLES, rewards=ARRIVAL_AND_COLLISION, seed=0),
     ),
     Preset(
-        "reward: evading must be moving away",
+        "reward: evading is moving away",
         "Evading is rewarded only where the robot moves away, among thirty obstacles. Look at its paths in the new "
         "maps where it never ended.",
         "Evading is rewarded again whenever nothing comes a metre nearer.",

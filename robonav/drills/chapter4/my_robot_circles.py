@@ -162,7 +162,7 @@ def farthest_target(rng: Rng) -> Question | None:
 
 SIGNS = {  # of each cause
     "nearly equal values": "training looks good, and a temperature of 0.4 ends the circles",
-    "a reward that pays for going to and fro": "many episodes never end in training, too",
+    "a reward that pays near obstacles only": "many episodes never end in training, too",
     "a reward that is too rare": "most episodes end in a collision, from the first to the last",
     "a learning rate that does not fall": "one robot of several is bad, and a temperature of 0.4 does not help it",
     "a high temperature to the end of the training": "training looks bad, and the greedy policies are good",
@@ -182,7 +182,7 @@ def cause_of_symptom(rng: Rng) -> Question:
             f"${medium}$ % of new maps, and ${100 - medium}$ % of the episodes never end. At $T = 0.4$ they arrive "
             f"in ${near}$ %."
         ),
-        "a reward that pays for going to and fro": (
+        "a reward that pays near obstacles only": (
             f"They arrive in ${medium}$ of the last 100 episodes of training, and the other ${100 - medium}$ never "
             f"end. Their greedy policies arrive in ${bad}$ % of new maps; the other episodes never end."
         ),

@@ -57,8 +57,8 @@ def last_step(rng: Rng) -> Question:
     kept = f" {sign(future)}" if future else ""
     return Question(
         f"The robot takes an action with the value ${q:g}$ and {end}. The reward is ${reward:g}$, and for the state "
-        f"reached the network's largest value is ${following:g}$. Which value does the update of NNQL, line 13 "
-        f"of Algorithm 8, give the action, with $\\alpha = {rate:g}$ and $\\gamma = {discount:g}$, before it is "
+        f"reached the network's largest value is ${following:g}$. Which value does line 13 "
+        f"of NNQL, give the action, with $\\alpha = {rate:g}$ and $\\gamma = {discount:g}$, before it is "
         "brought into $[0, 1]$?",
         Number(new, wrong=wrong),
         ("Nothing follows: " if terminal else "The future value counts: ")
@@ -329,7 +329,7 @@ def _step_of_nnql(rng: Rng, number: int, pairs: int) -> list[Line]:
             "The reward and the next state are known after the action.",
         ),
         (
-            f"line 13 of Algorithm 8 gives the value ${new[taken]:.3g}$.",
+            f"line 13 of NNQL gives the value ${new[taken]:.3g}$.",
             "The update needs the reward and the next state, which follow the action.",
         ),
         (
@@ -359,7 +359,7 @@ def order_of_nnql(rng: Rng) -> Question:
         f"In steps {number} and {number + 1} of an episode something is in range, so that the robot learns. With "
         "$\\alpha = 0.8$ and $\\gamma = 0.6$ NNQL prints these lines. Put them in order.",
         asked,
-        f"Lines 9 to 16 of Algorithm 8: values, action, update, rescaling, pair, training. {as_list(asked)}",
+        f"Lines 9 to 16 of NNQL: values, action, update, rescaling, pair, training. {as_list(asked)}",
     )
 
 

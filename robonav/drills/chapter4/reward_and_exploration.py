@@ -101,7 +101,7 @@ def property_of_state(rng: Rng) -> Question:
     name = nnql.Property(int(found)).name.lower()
     hints = {
         "safe": "A state is safe only if nothing is in sensor range, and the episode goes on.",
-        "cozy": "In a cozy state something is in range, nothing is near, and the episode goes on.",
+        "cozy": "In a cozy state something is in range, nothing is nearer than the border, and the episode goes on.",
         "dangerous": "A state is dangerous only if something is nearer than the border of cozy states, and the episode "
         "goes on.",
         "winning": "A winning state is an arrival.",
@@ -111,7 +111,7 @@ def property_of_state(rng: Rng) -> Question:
     shown = ", ".join(f"{reading:g}" for reading in ranges)
     return Question(
         f"The robot {outcomes[outcome]}. Its nine sensors read ${shown}$ m. Which property does its state "
-        f"have by Eq. (4.6)? Sensors reach 10 m, and what is nearer than {nnql.COZY_DISTANCE:g} m is near.",
+        f"have by Eq. (4.6)? Sensors reach 10 m, and a state is dangerous below {nnql.COZY_DISTANCE:g} m.",
         Choice(name, wrong),
         f"The robot {outcomes[outcome]}, so the state is {name}, whatever its sensors read."
         if outcome

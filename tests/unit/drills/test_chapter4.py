@@ -222,7 +222,7 @@ def test_cause_of_symptom_by_the_table_of_the_page() -> None:
             if trained > 90:
                 expected = "nearly equal values"
             elif "never end" in text:
-                expected = "a reward that pays for going to and fro"
+                expected = "a reward that pays near obstacles only"
             else:
                 expected = "a high temperature to the end of the training"
         assert right == expected
