@@ -316,12 +316,36 @@ def arrived(kinds, moves, table, discount=0.95):
     return np.array([(ends == WON).mean(), (ends == FAILED).mean()])
 
 
+def a_round_pays(kinds, moves, table):
+    """Whether a robot that never ends its episode can earn more and more."""
+    going = kinds < WON
+    rewards = np.where(going, table[np.minimum(kinds, DANGEROUS), kinds[moves]], 0.0)
+    rewards[kinds[moves] >= WON] = -np.inf
+    values, most = np.where(going, 0.0, -np.inf), []
+    for _ in range(400):
+        values = np.where(going, (rewards + values[moves]).max(axis=0), -np.inf)
+        most.append(values.max())
+    return bool(most[-1] > most[199] + 1e-6)
+
+
 def healthy(rng):
     """A table for which the robot arrives. Each is another one, so that no table is known by heart."""
     table = TABLE.copy()
     table[:, :WON] *= rng.uniform(0.6, 1.6)
     table[:, :WON] -= rng.uniform(0.0, 0.02, size=(3, 3))
     return table
+
+
+def why_not(fails, grids, table):
+    """What the episodes without an arrival suggest."""
+    if fails:
+        return "Some episodes end in an obstacle: a reward on the way is now so low that failing costs less."
+    if any(a_round_pays(*room, table) for room in grids):
+        return (
+            "Some episodes never end: going to and fro, or staying, still pays. Add the rewards of a way that leads "
+            "back to where it began."
+        )
+    return "Some episodes never end, though no round pays: a reward on the way is now so low that it costs less to go on."
 
 
 def cured(answer, rng, raised):
@@ -336,19 +360,17 @@ def cured(answer, rng, raised):
         answer.check(bool(fits), "expected a table of 3 rows and 5 columns")
         kept = np.allclose(got[:, WON:], table[:, WON:])
         answer.check(kept, "expected the rewards for arrivals and collisions unchanged")
+        grids = [rooms(rng) for _ in range(3)]
         shares = [
             [arrived(*room, one) for one in (original, got.astype(float))]
-            for room in [rooms(rng) for _ in range(3)]
+            for room in grids
         ]
         (right, _), (own, failed) = (100 * np.mean(shares, axis=0)).astype(int)
         answer.check(
             own >= right - 2,
             f"expected {right} of 100 episodes to arrive, got {own}; "
             f"collisions: {failed}, for ever on the way: {100 - own - failed}",
-            "Some episodes end in an obstacle: a reward on the way is now so low that failing costs less."
-            if failed > 100 - own - failed
-            else "Some episodes never end: going to and fro, or staying, still pays. Add the rewards of a way that leads "
-            "back to where it began.",
+            why_not(failed > 100 - own - failed, grids, got.astype(float)),
         )
         changed = int((~np.isclose(got, table)).sum())
         answer.check(changed <= 5, "expected at least 4 of 9 rewards unchanged")
@@ -451,6 +473,11 @@ def learned(answer, rng, obstacles):
             fits and all(np.isfinite(w.astype(float)).all() for w in weights),
             "the answer must be the layers (16, 13) and (5, 17), finite numbers",
         )
+        answer.check(
+            not all(map(np.allclose, weights, given)),
+            "expected other weights than those of the last round, got the same",
+            "The function returns the weights that it got: does it train a copy, and return that?",
+        )
         robot.weights = [w.astype(float) for w in weights]
     worlds = random_worlds(100, obstacles, seed=rng)
     return navigate(robot.drive, worlds, max_steps=150).outcome
@@ -466,8 +493,9 @@ def test_practise_and_drive(answer, rng):
         np.concatenate([learned(answer, rng, 10), learned(answer, rng, 10)]),
         132,
         collided="Look at whether the end of an episode reaches the steps before it: "
-        "the target of a step that ends with -1 is this -1, and only of the other steps the next state's value. Then "
-        "at how long and how fast the network is trained.",
+        "the target of a step that ends with -1 is this -1, and only of the other steps the next state's value. Does "
+        "only the output of the action taken move? Do the biases stay in column 0? Then look at how long and how fast "
+        "the network is trained.",
         late="Perhaps they go in circles. Look at what a step costs: "
         "if going on is worth as much as arriving, the robot goes on. And at whether values grow from round to round.",
     )

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def _weights(features, actions, rewards, ended, number, discount, gradient_step, *, all_so_far=True, fresh=False,
-             oldest=True, end=True, after=False, at_once=False, sarsa=False, discounted=True,
+             oldest=True, end=True, after=False, at_once=False, sarsa=False, again=False, discounted=True,
              always_ends=False, ahead=1, early=False, taken_alone=True, slope=True, sign=1):  # fmt: skip
     weights, targets, steps = np.zeros((number, features.shape[1])), [], len(rewards)
 
@@ -12,6 +12,7 @@ def _weights(features, actions, rewards, ended, number, discount, gradient_step,
         last = end and (ended or always_ends) and t == steps - 1
         q = weights @ features[t + ahead]
         value = q[actions[t + 1]] if sarsa and t + 1 < steps else q.max()
+        value = q[actions[t]] if again else value
         return rewards[t] + (0.0 if last else (discount if discounted else 1.0) * value)
 
     first = [target(t) for t in range(steps)]
@@ -63,6 +64,11 @@ def on_from_the_end(*arguments):
 def of_the_next_action(*arguments):
     """This is SARSA's target. Q-learning uses the largest value of the next state, whichever action is taken there."""
     return _weights(*arguments, sarsa=True)
+
+
+def of_the_same_action(*arguments):
+    """Use the largest value of the next state, not the value that the action just taken has there."""
+    return _weights(*arguments, again=True)
 
 
 def no_discount(*arguments):

@@ -78,6 +78,27 @@ def as_if_normal_without_draws(successes, block, draws):
     return mean, np.stack([mean - spread, mean + spread])
 
 
+def mean_and_deviation(successes, block, draws):
+    """A standard deviation says how far single seeds are apart. Here the interval of their mean is asked for."""
+    counts = _counts(successes, block)
+    mean, spread = counts.mean(axis=0), counts.std(axis=0)
+    return mean, np.stack([mean - spread, mean + spread])
+
+
+def mean_and_sample_deviation(successes, block, draws):
+    """A standard deviation says how far single seeds are apart. Here the interval of their mean is asked for."""
+    counts = _counts(successes, block)
+    mean, spread = counts.mean(axis=0), counts.std(axis=0, ddof=1)
+    return mean, np.stack([mean - spread, mean + spread])
+
+
+def sums_of_resamples(successes, block, draws):
+    """Take the mean of each resample over its seeds, not the sum."""
+    counts = _counts(successes, block)
+    sums = counts[draws].sum(axis=1)
+    return counts.mean(axis=0), np.percentile(sums, [2.5, 97.5], axis=0)
+
+
 def mean_over_resamples(successes, block, draws):
     """Take each resample's mean over its seeds, then the percentiles over the resamples."""
     counts = _counts(successes, block)

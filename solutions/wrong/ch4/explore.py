@@ -3,17 +3,19 @@
 import numpy as np
 
 
-def _heats(below, share, count, *, halvings=200, highest=np.inf):
+def _heats(below, share, count, *, halvings=200, highest=np.inf, turned=False):
     """Temperatures at which the best actions have their share; ``count`` gives the number of best actions."""
     finite = np.where(np.isfinite(below), below, 0.0)
     size = np.abs(finite).max(axis=1)
     size[size == 0] = 1.0
     low, high = np.log(size) - 60, np.minimum(np.log(size) + 60, np.log(highest))
+    if turned:
+        low, high = np.full(len(size), -60.0), np.full(len(size), 60.0)
     for _ in range(halvings):
         middle = (low + high) / 2
         with np.errstate(all="ignore"):
             shares = np.exp(below / np.exp(middle)[:, None])
-        too_cold = count / shares.sum(axis=1) > share
+        too_cold = (count / shares.sum(axis=1) > share) != turned
         low, high = np.where(too_cold, middle, low), np.where(too_cold, high, middle)
     return np.exp(high)[:, None]
 
@@ -118,6 +120,21 @@ def divides_by_zero(q, share, allowed):
 def range_too_low(q, share, allowed):
     """Search up to very high temperatures: the larger the values are, or the smaller the share, the higher it is."""
     return _right(q, share, allowed, highest=1.0)
+
+
+def range_up_to_ten(q, share, allowed):
+    """Search up to very high temperatures: the larger the values are, or the smaller the share, the higher it is."""
+    return _right(q, share, allowed, highest=10.0)
+
+
+def range_up_to_a_hundred(q, share, allowed):
+    """Search up to very high temperatures: the larger the values are, or the smaller the share, the higher it is."""
+    return _right(q, share, allowed, highest=100.0)
+
+
+def wrong_half(q, share, allowed):
+    """A higher temperature lowers the share of the best actions. Where it is too large, search among higher ones."""
+    return _right(q, share, allowed, turned=True)
 
 
 def too_few_halvings(q, share, allowed):

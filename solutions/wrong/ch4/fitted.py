@@ -4,7 +4,7 @@ import numpy as np
 
 
 def _weights(features, actions, costs, next_features, outcomes, number, discount, ridge, iterations, *, least=True,
-             goal=True, fail=True, adds=False, mean=False, own=False, once=False, discounted=True,
+             goal=True, fail=True, adds=False, future=False, mean=False, own=False, once=False, discounted=True,
              penalty_on=True, at_once=False):  # fmt: skip
     weights = np.zeros((number, features.shape[1]))
     for _ in range(1 if once else iterations):
@@ -17,6 +17,8 @@ def _weights(features, actions, costs, next_features, outcomes, number, discount
             targets = np.where(outcomes == 1, costs, targets)
         if fail:
             targets = np.where(outcomes == -1, costs + 1.0 if adds else 1.0, targets)
+        if future:
+            targets = np.where(outcomes == -1, 1.0 + discount * following, targets)
         if at_once:
             weights = _one_after_another(
                 features,
@@ -63,6 +65,11 @@ def failure_on_top(*arguments):
     return _weights(*arguments, adds=True)
 
 
+def failure_with_a_future(*arguments):
+    """Nothing follows a failure: its target is exactly 1, without the value of a next state."""
+    return _weights(*arguments, future=True)
+
+
 def penalty_for_each(*arguments):
     """Add the penalty once, not once for each step: the squared errors are summed, not averaged."""
     return _weights(*arguments, mean=True)
@@ -76,6 +83,12 @@ def same_action_again(*arguments):
 def only_once(*arguments):
     """Compute the targets again in each iteration, with the weights of the previous one."""
     return _weights(*arguments, once=True)
+
+
+def one_too_few(*arguments):
+    """There is one iteration too few: the first already fits the costs, with weights that were zero."""
+    *others, iterations = arguments
+    return _weights(*others, max(iterations - 1, 0))
 
 
 def _one_after_another(

@@ -74,6 +74,33 @@ def other_targets_zero(outputs, actions, *arguments):
     return np.where(np.arange(outputs.shape[1]) == actions[:, None], targets, 0.0)
 
 
+def _on_raw_outputs(outputs, actions, rewards, next_outputs, ended, discount, rate):
+    taken = np.arange(len(actions)), actions
+    moved = outputs.copy()
+    following = np.where(ended, 0.0, next_outputs.max(axis=1))
+    moved[taken] += rate * (rewards + discount * following - moved[taken])
+    return moved, taken
+
+
+def scaled_at_the_end(outputs, actions, rewards, next_outputs, ended, bounds, discount, rate):  # fmt: skip
+    """First bring the outputs onto the scale of the Q-values. Then move the value, and then bring it back."""
+    least, greatest = (bound / (1 - discount) for bound in bounds)
+    moved, taken = _on_raw_outputs(
+        outputs, actions, rewards, next_outputs, ended, discount, rate
+    )
+    moved[taken] = (moved[taken] - least) / (greatest - least)
+    return moved.clip(0.0, 1.0)
+
+
+def all_scaled_at_the_end(outputs, actions, rewards, next_outputs, ended, bounds, discount, rate):  # fmt: skip
+    """First bring the outputs onto the scale of the Q-values. Then move the value, and then bring it back."""
+    least, greatest = (bound / (1 - discount) for bound in bounds)
+    moved, _ = _on_raw_outputs(
+        outputs, actions, rewards, next_outputs, ended, discount, rate
+    )
+    return ((moved - least) / (greatest - least)).clip(0.0, 1.0)
+
+
 def not_back_on_the_scale(outputs, actions, rewards, next_outputs, ended, bounds, discount, rate):  # fmt: skip
     """Return the targets on the network's scale, from 0 to 1, not as Q-values."""
     least, greatest = (bound / (1 - discount) for bound in bounds)

@@ -94,6 +94,7 @@ def test_a_changed_argument_costs_one_part():
 
     result = feedback("4.2", shaped)
     assert result["feedback"].count("changes potentials in place") == 1
+    assert "Hint" not in result["feedback"]
     assert 0 < result["points"] < result["max_points"]
 
 
