@@ -58,7 +58,7 @@ def last_step(rng: Rng) -> Question:
     return Question(
         f"The robot takes an action with the value ${q:g}$ and {end}. The reward is ${reward:g}$, and for the state "
         f"reached the network's largest value is ${following:g}$. Which value does line 13 "
-        f"of NNQL, give the action, with $\\alpha = {rate:g}$ and $\\gamma = {discount:g}$, before it is "
+        f"of NNQL give the action, with $\\alpha = {rate:g}$ and $\\gamma = {discount:g}$, before it is "
         "brought into $[0, 1]$?",
         Number(new, wrong=wrong),
         ("Nothing follows: " if terminal else "The future value counts: ")

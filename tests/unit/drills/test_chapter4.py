@@ -104,7 +104,7 @@ def test_potential_telescopes() -> None:
 
 def test_last_step() -> None:
     for question in drawn("last-step"):
-        q, reward, following, _, _, alpha, gamma, *_ = numbers(question.text)
+        q, reward, following, _, alpha, gamma, *_ = numbers(question.text)
         if "stopped" not in question.text:
             following = 0
         new = (1 - alpha) * q + alpha * (reward + gamma * following)
