@@ -7,8 +7,8 @@ same time. Here a step of a robot lasts $\tau_t$ seconds, since turning takes lo
 than going on, and all that comes after it is discounted by $\gamma^{\tau_t}$. The error
 of the value function in a step is then $\delta_t = r_t + \gamma^{\tau_t} V(s_{t+1}) -
 V(s_t)$, and the advantage is $A_t = \delta_t + \gamma^{\tau_t} \lambda A_{t+1}$.
-Nothing is known of what follows the last row: take 0 for the advantage there. Several robots drive at
-once, each in a column of its own.
+Nothing is known of what follows the last row: take 0 for the advantage there. Several
+robots drive at once, each in a column of its own.
 
 An episode ends in one of two ways. If it terminated, with an arrival or a collision,
 its last state has no value. If the time limit ended it, the robot would have gone on,
