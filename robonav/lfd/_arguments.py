@@ -18,7 +18,7 @@ from .demonstrations import Demonstrations
 
 
 def check_rounds(name: str, rounds: Sequence[Worlds]) -> Sequence[Worlds]:
-    """Return the batches of worlds of DAgger's rounds if they are that."""
+    """Check that each round of DAgger has a batch of worlds, and return the batches."""
     for number, worlds in enumerate(check_instance(name, rounds, Sequence)):
         check_instance(f"{name}[{number}]", worlds, Worlds)
     return rounds

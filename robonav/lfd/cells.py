@@ -13,7 +13,7 @@ Found = tuple[bool, list[Any], int]
 
 
 def warn_if_cells_hide_paths(name: str, cell: float, move: float) -> None:
-    """Warn that a move which ends in the cell it began in leads to no new node, if cells are larger than a move.
+    """Warn, if cells are larger than a move, that a move which stays in its cell leads to no new node.
 
     Examples
     --------
@@ -29,7 +29,7 @@ def warn_if_cells_hide_paths(name: str, cell: float, move: float) -> None:
 
 
 def warns_if_cells_hide_paths(search: Callable[P, Found]) -> Callable[P, Found]:
-    """Make a search, whose moves are steps of length ``speed``, warn where it finds no path."""
+    """Let a search warn where it finds no path and its cells are larger than a move of length ``speed``."""
 
     @wraps(search)
     def warning(*args: P.args, **kwargs: P.kwargs) -> Found:

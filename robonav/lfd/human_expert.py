@@ -301,7 +301,7 @@ def between_ends(world: Worlds, key_points: ArrayLike) -> Floats:
 
 
 def sketch(worlds: Worlds, *, seed: int, noise: float = 1.0) -> list[Floats]:
-    """Generate key points as a person might give them: few, and inaccurate.
+    """Generate a few inaccurate key points, such as a person might give.
 
     They are the corners of a simplified plan of the computer expert, with random errors. If the smooth path through
     them comes nearer than 2 m to an obstacle or border, they are drawn again with smaller errors, from a less

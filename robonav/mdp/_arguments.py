@@ -109,7 +109,7 @@ def check_by_model(function: str, arguments: dict[str, Any]) -> None:
 
 
 def beliefs_to_back_up(mdp: Any, beliefs: Any) -> NDArray[Any]:
-    """The beliefs (N, S), checked; a ValueError without discount, when there are no values to start from."""
+    """Check the beliefs (N, S), and refuse a model without discount: there are no values to start from."""
     if mdp.discount == 1:
         raise ValueError("point_based_value_iteration needs a discount below 1, got 1")
     check_array("beliefs", beliefs, shape=("N", mdp.n_states))
@@ -148,7 +148,7 @@ def takes_policy(method: Callable[..., R]) -> Callable[[Any, ArrayLike], R]:
 def refuses_impossible(
     message: str,
 ) -> Callable[[Callable[P, NDArray[Any]]], Callable[P, NDArray[Any]]]:
-    """Decorate an update of a belief: ValueError where the evidence is impossible and Bayes' rule divides 0 by 0.
+    """Decorate an update of a belief, so that it refuses impossible evidence, for which Bayes' rule divides 0 by 0.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from . import policies
 
 
 def checked_rewards(rewards: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
-    """Rewards (S, A) as finite numbers. The error says what to do with actions that are not allowed."""
+    """Check that the rewards (S, A) are finite. The error says what to do with actions that are not allowed."""
     given = np.asarray(rewards)
     if given.dtype.kind == "f" and np.isneginf(given).any():
         raise ValueError(

@@ -141,7 +141,7 @@ def qmdp(pomdp: POMDP, *, tolerance: float = 1e-6) -> AlphaVectors:
 
 
 def largest_rise(pomdp: POMDP, tolerance: float) -> float:
-    """Rise of a value below which later rises add up to at most ``tolerance``, if they shrink by the discount."""
+    """The largest rise of a value after which all later rises, each discounted, add up to at most ``tolerance``."""
     return tolerance * (1 - pomdp.mdp.discount)
 
 
@@ -158,7 +158,8 @@ def point_based_value_iteration(
 
     Starts below every value (the worst reward forever) and keeps the best vector found so far for each belief. Of
     vectors that are equally good there, it keeps the one with the larger sum, since the next backup may start from
-    another belief. So the values of the beliefs rise and stay lower bounds everywhere. More beliefs come closer.
+    another belief. So the values of the beliefs rise and stay lower bounds everywhere. With more
+    beliefs they come closer to the optimal values.
 
     The beliefs are fixed beforehand. The published method alternates: after some backups it adds a successor of each
     belief, the one that is furthest from all others, and backs up again.

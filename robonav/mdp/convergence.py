@@ -74,7 +74,7 @@ def warns_not_converged(
 def warn_not_converged(
     name: str, iterations: int, residual: float, limit: float, *, stacklevel: int = 4
 ) -> None:
-    """ConvergenceWarning at the line that called the method ``name``."""
+    """Give a ConvergenceWarning at the line that called the method ``name``."""
     warnings.warn(
         f"{name} gave up after {counted(iterations, 'iteration')}: the last one still changed a value "
         f"by {residual:.3g}, where {limit:.3g} was asked for",

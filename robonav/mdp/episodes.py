@@ -23,7 +23,7 @@ TRAINING, TESTING = range(2**31 - 1), range(2**31 - 1, 2**32 - 2)
 
 
 class UniformNumbers:
-    """The numbers that ``rng.random()`` would give one by one, drawn in blocks; call :attr:`random`."""
+    """The numbers that ``rng.random()`` would give, drawn in blocks; :attr:`random` gives the next one."""
 
     def __init__(self, rng: np.random.Generator) -> None:
         def stream() -> Iterator[float]:

@@ -95,7 +95,7 @@ def policy_evaluation(
 
 
 def evaluation_residual(mdp: FiniteMDP, tolerance: float) -> float:
-    """Change of a sweep below which all values are within ``tolerance`` of their limit.
+    """The largest change of a sweep after which all values are within ``tolerance`` of their limit.
 
     Examples
     --------
@@ -107,7 +107,7 @@ def evaluation_residual(mdp: FiniteMDP, tolerance: float) -> float:
 
 
 def least_gain(mdp: FiniteMDP, tolerance: float) -> float:
-    """Gain of an action that, taken forever, adds up to ``tolerance``; without discount 0.
+    """The gain of an action that adds up to ``tolerance`` if it is taken forever; without discount 0.
 
     Examples
     --------
@@ -119,7 +119,7 @@ def least_gain(mdp: FiniteMDP, tolerance: float) -> float:
 
 
 def error_limit(mdp: FiniteMDP, tolerance: float) -> float:
-    """Bellman error below which the greedy policy loses at most ``tolerance``; without discount ``tolerance``.
+    """The largest Bellman error for which the greedy policy loses at most ``tolerance``; that itself without discount.
 
     Examples
     --------
@@ -222,7 +222,7 @@ def expected_return(mdp: FiniteMDP, policy: ArrayLike, start: ArrayArgument) -> 
 
 
 class ValueHistory:
-    """The values of each iteration, if they are to be kept.
+    """Keeps the values of each iteration, if asked to.
 
     Examples
     --------

@@ -19,7 +19,7 @@ Schedule = Callable[[int], float]
 
 
 def constant(value: float) -> Schedule:
-    """The same rate always. Values then never converge, but they can follow an environment that changes."""
+    """Keep the same rate. Values then never converge, but they can follow an environment that changes."""
     _rate("value", value)
     return partial(_constant, value)
 

@@ -24,7 +24,7 @@ Features = Callable[[Any], NDArray[np.float64]]
 def for_each_action(
     state_features: NDArray[np.float64], actions: int
 ) -> NDArray[np.float64]:
-    """State features (d,) with weights of their own for each action: (A, A * d), zero except in the action's block."""
+    """Give each action a block for the state features (d,): (A, A * d), zero except in the action's own block."""
     blocks = np.zeros((actions, actions, len(state_features)))
     blocks[np.arange(actions), np.arange(actions)] = state_features
     return blocks.reshape(actions, -1)

@@ -65,7 +65,7 @@ def generalized_policy_iteration(
     start_policy: ArrayLike | None = None,
     max_rounds: int = 10_000,
 ) -> GPIHistory:
-    """Generalized policy iteration: evaluate by some sweeps, improve, repeat until both agree; all recorded.
+    """Generalized policy iteration with a record: evaluate by some sweeps, improve, and repeat until both agree.
 
     Parameters
     ----------
@@ -154,7 +154,7 @@ def largest_rounding(
 def keep_ties(
     mdp: FiniteMDP, policy: Actions, values: Floats, q: Floats, rounding: float
 ) -> Actions:
-    """The greedy policy, except that an action as good as the best stays: otherwise ties could alternate forever."""
+    """The greedy policy that keeps an action as good as the best; otherwise ties could alternate forever."""
     own = mdp.action_values(values)[np.arange(mdp.n_states), policy]
     gain = q.max(axis=1) - own
     return np.where(gain <= rounding, policy, q.argmax(axis=1))

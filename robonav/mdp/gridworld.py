@@ -318,7 +318,7 @@ class GridWorld:
 
 
 def takes_action(step: Callable[[Any, int], R]) -> Callable[[Any, int], R]:
-    """Decorate ``step``: its action is from 0 to 3; policies of other libraries give it as an array ()."""
+    """Decorate ``step``, so that it checks its action, 0 to 3, which other libraries may give as an array ()."""
 
     @wraps(step)
     def checked(env: GridEnvironment, action: Any) -> R:

@@ -237,7 +237,7 @@ def linear_method(algorithm: Callable[..., None]) -> LinearMethod:
 
 
 def shape_of_features(env: gym.Env[Any, int], features: Features) -> tuple[int, int]:
-    """Shape (A, n) of the features of the environment's first state; a ValueError unless it has a row an action."""
+    """Return the shape (A, n) of the features of the first state, and refuse features without a row for each action."""
     n_actions = int(env.action_space.n)  # type: ignore[attr-defined]
     shape = np.shape(features(env.reset(seed=0)[0]))
     if len(shape) != 2 or shape[0] != n_actions:
@@ -250,7 +250,7 @@ def shape_of_features(env: gym.Env[Any, int], features: Features) -> tuple[int, 
 def checked_features(
     features: Features, shape: tuple[int, int], weights: NDArray[np.float64]
 ) -> Features:
-    """The features, which raise a ValueError if their shape changes or the weights have grown without bound."""
+    """Let the features raise a ValueError if their shape changes or the weights have grown without bound."""
 
     def find(state: Any) -> NDArray[np.float64]:
         """The features of a state, checked."""
@@ -266,7 +266,7 @@ def checked_features(
 
 
 def check_weights(weights: NDArray[np.float64]) -> None:
-    """ValueError if learning has diverged."""
+    """Raise a ValueError if learning has diverged."""
     if not weights @ weights < DIVERGED**2:
         raise ValueError(
             "the weights grow without bound: learning_rate is too large for the number of features"
@@ -281,7 +281,7 @@ def public(
     without: Iterable[str] = (),
     other: dict[str, str] | None = None,
 ) -> Any:
-    """``train`` under the name of the algorithm, with its own options and the documentation of all parameters.
+    """Give ``train`` the name of the algorithm, the algorithm's own options, and the documentation of all parameters.
 
     Parameters
     ----------

@@ -329,7 +329,7 @@ class FiniteMDP:
 
     @checked
     def residual_for(self, tolerance: float) -> float:
-        """Change of a sweep below which the greedy policy loses at most ``tolerance`` in every state.
+        """The largest change of a sweep after which the greedy policy loses at most ``tolerance`` in every state.
 
         It is tolerance (1 - gamma) / (2 gamma) (Puterman 2005, Theorem 6.3.1), and infinite for discount 0. Without
         discount there is no such bound; ``tolerance`` itself is returned.

@@ -334,7 +334,7 @@ require_type("pomdp", POMDP)
 
 @dataclass(frozen=True, eq=False)
 class BeliefMDP:
-    """The MDP whose states are the beliefs of a POMDP: <B, A, tau, r, gamma>. From each, few others can be reached.
+    """The MDP whose states are the beliefs of a POMDP: <B, A, tau, r, gamma>. Few beliefs can follow a belief.
 
     Parameters
     ----------

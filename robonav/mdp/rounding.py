@@ -21,7 +21,7 @@ Actions = NDArray[np.intp]
 def gains_and_limit(
     mdp: FiniteMDP, policy: Actions, values: Floats, q: Floats, tolerance: float
 ) -> tuple[Floats, float]:
-    """Gain Q(s, a) - V(s) of each action (S, A), and the gain above which an action is strictly better.
+    """The gain Q(s, a) - V(s) of each action (S, A), and the limit above which a gain makes an action strictly better.
 
     Warns if no action is strictly better, but rounding may hide gains that add up to more than the tolerance.
     """

@@ -217,7 +217,7 @@ def policy_values(
 
 
 def closed_classes(transitions: sp.csr_array, rewards: Floats, name: str) -> Bools:
-    """Which states (S,) lie in a class that the chain never leaves; a ValueError if one of them pays a reward."""
+    """Which states (S,) lie in a class that the chain never leaves. A chain that pays rewards there is refused."""
     count, member = csgraph.connected_components(transitions, connection="strong")
     source, reached = transitions.nonzero()
     closed = np.ones(count, dtype=bool)

@@ -26,7 +26,7 @@ R = TypeVar("R")
 def checked_layers(
     weights: Sequence[ArrayLike], biases: Sequence[ArrayLike]
 ) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
-    """Return copies of the arrays, which cannot be changed, if the shapes of each layer fit those of the next.
+    """Check that the shapes of each layer fit those of the next, and return copies that cannot be changed.
 
     Raises
     ------
@@ -217,5 +217,5 @@ checked_arguments = checks(
 
 
 def checked(function: Callable[P, R]) -> Callable[P, R]:
-    """Decorate a function of (network, x, y, regularisation): its arguments are checked, and documented."""
+    """Decorate a function of (network, x, y, regularisation): it checks its arguments and documents them."""
     return documented(checked_arguments(function))

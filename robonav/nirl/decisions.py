@@ -123,7 +123,7 @@ class Decisions:
 
 
 def add_constant(inputs: Floats) -> Floats:
-    """Inputs (M, k) and a column of ones.
+    """Append a column of ones to the inputs (M, k).
 
     Examples
     --------
@@ -134,7 +134,7 @@ def add_constant(inputs: Floats) -> Floats:
 
 
 def concatenate_decisions(parts: Sequence[Decisions]) -> Decisions:
-    """Several as one, their episodes numbered from the first to the last."""
+    """Join several sets of decisions into one, and number their episodes consecutively."""
     offsets = np.cumsum([0] + [len(part.collided) for part in parts])
     trajectories = [
         part.trajectory + offset for part, offset in zip(parts, offsets, strict=False)

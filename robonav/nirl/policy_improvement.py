@@ -40,7 +40,7 @@ class Improver(Protocol):
 
     @property
     def replay(self) -> int:
-        """Number of latest iterations with whose decisions the network trains."""
+        """How many of the latest iterations the network trains with."""
 
     def improve(
         self,

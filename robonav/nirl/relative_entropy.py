@@ -227,7 +227,7 @@ def hoeffding_slack(
 def warns_beyond_slack(
     method: Callable[P, RelativeEntropy],
 ) -> Callable[P, RelativeEntropy]:
-    """Let a method warn where the gap of its result exceeds the slack."""
+    """Decorate a method, so that it warns where the gap of its result exceeds the slack."""
 
     @wraps(method)
     def run(*args: P.args, **kwargs: P.kwargs) -> RelativeEntropy:

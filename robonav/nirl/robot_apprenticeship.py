@@ -113,7 +113,7 @@ def apprenticeship(
     """Apprenticeship learning (Abbeel and Ng 2004) without a model: a neural network learns the policy of each reward.
 
     The numbers in the code are the steps of the paper, as in :func:`apprenticeship_learning`. Feature expectations are
-    estimated from episodes. The policies differ by one network, which goes on from one reward to the next.
+    estimated from episodes. One network learns all policies: it goes on from one reward to the next.
 
     Parameters
     ----------

@@ -172,5 +172,5 @@ documented = documents(
 
 
 def checked(function: Callable[P, R]) -> Callable[P, R]:
-    """Decorate a function of this chapter: its arguments are checked, and its docstring gets what it leaves out."""
+    """Decorate a function of this chapter: it checks its arguments, and its docstring gets the missing sections."""
     return documented(checked_arguments(function))

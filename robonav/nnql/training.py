@@ -139,7 +139,7 @@ def train(
 ) -> TrainingResult:
     """Train one network for each seed, by a method of this chapter.
 
-    The networks train at once, each as the readable function of that name (:func:`nnql`, :func:`online`, :func:`nfq`,
+    The networks train together, each as the readable function of that name (:func:`nnql`, :func:`online`, :func:`nfq`,
     :func:`dqn`) trains it in ``task.environment()``. All seeds step in one simulator, and compiled code trains their
     networks.
 

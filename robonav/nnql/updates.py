@@ -96,7 +96,7 @@ def clip(q: Array) -> Array:
 
 @checked_arguments
 def shift(q: Array) -> Array:
-    """Shift and divide the Q-values of a state (..., A) until all lie in [0, 1]; the order of the actions stays.
+    """Shift and divide the Q-values of a state (..., A), so that all lie in [0, 1]. The order of the actions stays.
 
     Parameters
     ----------
