@@ -171,9 +171,11 @@ def test_the_python_of_the_playground_trains_a_robot_that_drives(tmp_path, monke
         dedent(cell) for cell in re.findall(r" *```python\n(.*?)```", page, re.DOTALL)
     ]
     monkeypatch.chdir(tmp_path)
-    drives = demonstrate(random_worlds(4, 10, seed=3))
+    demonstrations = demonstrate(random_worlds(4, 10, seed=3))
     outcome = np.array(["arrived", "arrived", "arrived", "collided"])
-    save_demonstrations("my-drives.npz", replace(drives, outcome=outcome))
+    save_demonstrations(
+        "my-demonstrations.npz", replace(demonstrations, outcome=outcome)
+    )
     names: dict[str, Any] = {}
     for cell in code:
         exec(cell, names)
