@@ -2,7 +2,7 @@
 
 A listing of the package's code has at most 40 lines of at most 88 columns. It shows no imports, no input checks and no
 warnings; its syntax tree is searched for them. A decorator may check the arguments, since it stands outside the code.
-Each numbered equation of a page is followed, on that page, by a listing whose comments carry its number.
+Each numbered equation of a page has a listing on that page whose comments carry its number.
 Equations that only introduce a symbol (``symbols.toml``) need no listing. A code cell of the page that is not folded
 has at most 88 columns, and so has an exercise's file.
 """
@@ -91,12 +91,13 @@ def wide_stubs(html: str) -> Iterator[str]:
 def faults(html: str) -> Iterator[str]:
     """Yield one sentence for each fault of the listings of one page."""
     soup = parsed(html)
-    waiting: list[str] = []  # equations that are not followed by a listing yet
+    numbers: list[str] = []  # the page's equations, in its order
+    listed: set[citations.Number] = set()  # the numbers that the comments of its listings carry
     for found in soup.select("div.math[id^=equation-eq-], div.function-source"):
         if "math" in (found.get("class") or ()):
             number = _number(str(found["id"]))
             if number and citations.key(number) not in citations.symbols():
-                waiting.append(number)
+                numbers.append(number)
             continue
         text = found.get_text().strip("\n")
         caption = found.find_previous_sibling(class_="code-block-caption")
@@ -109,10 +110,10 @@ def faults(html: str) -> Iterator[str]:
             yield f"{name} has {widest} columns"
         for kind in plumbing(text):
             yield f"{name} shows {kind}"
-        shown = citations.cited("equations", text)
-        waiting = [number for number in waiting if citations.key(number) not in shown]
-    for number in waiting:
-        yield f"no listing after Eq. ({number}) carries its number"
+        listed |= citations.cited("equations", text)
+    for number in numbers:
+        if citations.key(number) not in listed:
+            yield f"no listing carries the number of Eq. ({number})"
 
 
 def _number(anchor: str) -> str | None:

@@ -111,7 +111,7 @@ SCHEMES: dict[str, Scheme] = {
                 style.GREEN,
             ),
             "memory": Box(
-                {"en": "all pairs\nso far", "fr": "tout ce qui\nfut vécu"},
+                {"en": "pairs of\nthe episode", "fr": "paires de\nl'épisode"},
                 2,
                 1,
                 style.ORANGE,

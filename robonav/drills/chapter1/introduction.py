@@ -389,8 +389,8 @@ def which_sensor_reports(rng: Rng) -> Question:
         f"The robot's heading is ${heading}°$. A post stands ${dx:g}$ m from it along the x axis "
         f"and ${dy:g}$ m along the y axis. Click on the sector whose sensor reports it.",
         Place([f"sector {k}" for k in range(1, 10)], [f"sector {sector}"], wrong),
-        f"The post lies in the direction ${(heading + bearing) % 360}°$ of the map, and that is "
-        f"${bearing}°$ from ahead. "
+        f"The post lies in the direction of about ${(heading + bearing) % 360}°$ on the map, and that is "
+        f"about ${bearing}°$ from ahead. "
         f"Sector 1 reaches from $-20°$ to $20°$, and the others follow counter-clockwise: sector {sector}.",
         _sectors(heading),
     )

@@ -116,6 +116,29 @@ def test_weights_of_two_states_grow(written):
         assert grows is None or (moved > weight) == grows
 
 
+def test_weights_shrink_with_the_second_update(written):
+    """The answer has the factors of both updates, with the numbers of the cell above it."""
+    text = written("linear-values", "**Try it.**", "An on-policy method")
+    alpha, discount = 0.1, 0.9
+    first = 1 + alpha * (discount * 2 * 1 - 1) * 1
+    second = 1 + alpha * (0 - 2 * 1) * 2
+    assert f"= {second:.1f}\\, w$" in text
+    assert f"= {first:.2f}$" in text
+    assert f"= {first * second:.3f}$" in text
+
+
+def test_bias_of_every_visit(written):
+    """The mean of the sum is 4, the mean of the number 2, and the mean of the quotient of one episode 1.5."""
+    text = written("prediction", "## Bias and variance", "```{code-cell}")
+    lengths = np.arange(1, 200)
+    chances = 0.5**lengths
+    total = (chances * lengths * (lengths + 1) / 2).sum()
+    number = (chances * lengths).sum()
+    assert f"{total:.0f} on average, and $n$ to the number, {number:.0f} on" in text
+    assert (chances * (lengths + 1) / 2).sum() == pytest.approx(1.5)
+    assert "1.5 on average" in text
+
+
 def test_returns_of_an_episode(written):
     text = written("prediction", "## Monte Carlo prediction", "The code below")
     returns = mdp.discounted_return([0, 2, 0, 10], 0.9)
@@ -124,6 +147,33 @@ def test_returns_of_an_episode(written):
     assert "10.1" in text
     assert returns[[0, 2]].mean() == pytest.approx(9.045)
     assert "9.045" in text
+
+
+def test_sarsa_that_never_arrives(written):
+    """With ε = 0.4 and α = 0.5 it walks into the border in the sixth cell of the top row; with α = 0.1 it arrives."""
+    text = written("model-free-learning", "## Watch both learn", "## Which one")
+    cliff = mdp.GridWorld(
+        ". . . . . . .\n. . . . . . .\n. . . . . . .\nS X X X X X G",
+        legend={"X": mdp.Cell(reward=-99.0, ends=True), "G": mdp.Cell(ends=True)},
+        step_reward=-1.0,
+    )
+    assert all(row in text for row in cliff.text.split("\n"))
+    last = {}
+    for rate in (0.1, 0.5):
+        learned = mdp.sarsa(
+            cliff.environment(),
+            500,
+            discount=1.0,
+            learning_rate=rate,
+            epsilon=0.4,
+            seed=1,
+        )
+        (walk,) = mdp.rollouts(
+            cliff.environment(), learned.policy, 1, max_steps=40, seed=0
+        )
+        last[rate] = int(walk.states[-1])
+    assert last == {0.1: 27, 0.5: 5}
+    assert "in the sixth cell of the top row" in text
 
 
 class OneStep:
@@ -198,6 +248,17 @@ def test_robot_in_numbers(written):
     assert f"{defaults['speed'].default:g} m/s" in box
 
 
+def test_rule_that_never_arrives(written):
+    """In the fourth map of the figure; in the other three it arrives."""
+    text = written("robot", "name: fig-freer-side", "A policy of your own")
+    assert "random_worlds(4, 15, seed=5)" in text
+    worlds = robot.random_worlds(4, 15, seed=5)
+    drive = robot.navigate(robot.turn_to_clearer_side, worlds)
+    assert drive.success.tolist() == [True, True, True, False]
+    assert drive.outcome[3] == "out of steps"
+    assert "In the fourth map it never arrives" in text
+
+
 def test_reading_of_a_circle_beside_the_sector(written):
     text = written("robot", "The circle also reaches", "```{code-cell}")
     along = 8 * np.cos(np.radians(20)) + 2 * np.sin(np.radians(20))
@@ -254,10 +315,22 @@ def test_qmdp_at_the_fork(written):
     assert "= 8$ for reading" in text
 
 
-def test_a_backup_of_an_alpha_vector(written):
+def test_qmdp_listens_to_the_tiger(written):
+    """It opens a door where the best plan does, and promises far too much."""
     text = written(
-        "partial-observation", "Take the tiger with one step", "```{code-cell}"
+        "partial-observation", "What does it do with the tiger", "A robot that"
     )
+    tiger = mdp.tiger(accuracy=0.85, discount=0.95)
+    by_qmdp = mdp.qmdp(tiger)
+    assert [by_qmdp.action([left, 1 - left]) for left in (0.5, 0.85, 0.97)] == [0, 0, 2]
+    assert by_qmdp.value([0.5, 0.5]) > 100
+    points = mdp.spread_beliefs(tiger, [0.5, 0.5], 40)
+    best = mdp.point_based_value_iteration(tiger, points).value([0.5, 0.5])
+    assert f"worth {best:.1f} for the uniform belief" in text
+
+
+def test_a_backup_of_an_alpha_vector(written):
+    text = written("partial-observation", "With *one* step to go", "```{code-cell}")
     tiger = mdp.tiger(accuracy=0.85, discount=0.95)
     one_step = mdp.AlphaVectors(tiger.mdp.rewards.T, np.arange(3))
     belief = np.array([0.85, 0.15])
