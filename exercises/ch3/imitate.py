@@ -1,8 +1,9 @@
 # Exercise 3.8: Train a robot.
 # 10 points, open task, about 90 minutes.
 # Your marks come from new random cases, which are drawn again whenever your submission
-# changes. Of 30 draws of the cases, two right answers passed all parts in 30 and 30. A
-# call may take 5 s and all calls 30 s; theirs took at most 0.7 s and 1.0 s.
+# changes. Two right answers were tried on 30 draws of the cases: they passed all parts
+# every time. A call may take 5 s and all calls 30 s; theirs took at most 0.7 s and 1.0
+# s.
 # Check it with: robonav check 3.8
 """An open task: train a robot. You are given what an expert perceived and did in its
 effective steps. Train a network like that of exercise 3.1 on them, with hyperbolic

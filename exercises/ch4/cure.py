@@ -1,8 +1,9 @@
 # Exercise 4.8: Cure a robot that circles.
 # 8 points, open task, about 60 minutes.
 # Your marks come from new random cases, which are drawn again whenever your submission
-# changes. Of 30 draws of the cases, two right answers passed all parts in 30 and 30. A
-# call may take 5 s and all calls 30 s; theirs took at most 0.1 s and 0.1 s.
+# changes. Two right answers were tried on 30 draws of the cases: they passed all parts
+# every time. A call may take 5 s and all calls 30 s; theirs took at most 0.1 s and 0.1
+# s.
 # Check it with: robonav check 4.8
 """An open task: cure a robot that circles. As in the chapter, the reward of a step
 depends on how dangerous the place before it was and how dangerous the place after it

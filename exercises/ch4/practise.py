@@ -1,8 +1,9 @@
 # Exercise 4.9: Learn to drive by trial and error.
 # 10 points, open task, about 90 minutes.
 # Your marks come from new random cases, which are drawn again whenever your submission
-# changes. Of 30 draws of the cases, two right answers passed all parts in 30 and 29. A
-# call may take 5 s and all calls 30 s; theirs took at most 0.4 s and 2.1 s.
+# changes. Two right answers were tried on 30 draws of the cases: they passed all parts
+# 30 and 29 times. A call may take 5 s and all calls 30 s; theirs took at most 0.4 s and
+# 2.1 s.
 # Check it with: robonav check 4.9
 r"""An open task: let a robot learn by trial and error. The check makes a small network
 with random weights, whose five outputs are to become the values $Q(s, a)$ of five

@@ -1,8 +1,9 @@
 # Exercise 5.7: Recover a reward.
 # 10 points, open task, about 90 minutes.
 # Your marks come from new random cases, which are drawn again whenever your submission
-# changes. Of 30 draws of the cases, two right answers passed all parts in 30 and 29. A
-# call may take 5 s and all calls 30 s; theirs took at most 0.1 s and 1.1 s.
+# changes. Two right answers were tried on 30 draws of the cases: they passed all parts
+# 30 and 29 times. A call may take 5 s and all calls 30 s; theirs took at most 0.1 s and
+# 1.1 s.
 # Check it with: robonav check 5.7
 r"""An open task: recover a reward. An expert drove a robot through a grid of cells and
 acted optimally for a reward $r(s) = \theta \cdot f(s)$ that you do not know. You are

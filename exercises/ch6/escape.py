@@ -1,8 +1,9 @@
 # Exercise 6.6: Out of the pocket.
 # 10 points, open task, about 90 minutes.
 # Your marks come from new random cases, which are drawn again whenever your submission
-# changes. Of 30 draws of the cases, two right answers passed all parts in 30 and 30. A
-# call may take 5 s and all calls 30 s; theirs took at most 0.1 s and 0.9 s.
+# changes. Two right answers were tried on 30 draws of the cases: they passed all parts
+# every time. A call may take 5 s and all calls 30 s; theirs took at most 0.1 s and 0.9
+# s.
 # Check it with: robonav check 6.6
 """An open task: write a planner that remembers. Across the way to the target lies a
 pocket, three walls that open towards the robot. A robot that does in the same place

@@ -1,8 +1,9 @@
 # Exercise 6.7: Learn to drive with a policy gradient.
 # 10 points, open task, about 90 minutes.
 # Your marks come from new random cases, which are drawn again whenever your submission
-# changes. Of 30 draws of the cases, two right answers passed all parts in 30 and 30. A
-# call may take 5 s and all calls 30 s; theirs took at most 0.1 s and 1.8 s.
+# changes. Two right answers were tried on 30 draws of the cases: they passed all parts
+# every time. A call may take 5 s and all calls 30 s; theirs took at most 0.1 s and 1.8
+# s.
 # Check it with: robonav check 6.7
 r"""An open task: let a robot learn with a policy gradient. The check makes two small
 networks with random weights. The five outputs of the policy's network are those whose

@@ -67,12 +67,14 @@ class Exercise:
         Examples
         --------
         >>> Exercise("2.9", "steer", "Drive", 8, "open task", 60, "robot", 50, (50, 49)).fairness
-        'Of 50 draws of the cases, two right answers passed all parts in 50 and 49.'
+        'Two right answers were tried on 50 draws of the cases: they passed all parts 50 and 49 times.'
         """
         if not self.draws:
             return ""
-        each = " and ".join(map(str, self.passed))
-        return f"Of {self.draws} draws of the cases, two right answers passed all parts in {each}."
+        passed = f"{' and '.join(map(str, self.passed))} times"
+        if set(self.passed) == {self.draws}:
+            passed = "every time"
+        return f"Two right answers were tried on {self.draws} draws of the cases: they passed all parts {passed}."
 
 
 @dataclass(frozen=True)

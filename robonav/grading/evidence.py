@@ -118,6 +118,8 @@ class Evidence:
 
     def _hint(self, observation: Observation) -> str | None:
         """Return the hint of the known mistake that fits this call and contradicts no other."""
+        if _is_right(observation):
+            return observation.advice
         best, hint = 0, None
         for name, (said, value) in self._mistakes(observation).items():
             if compare.difference(observation.counted(observation.got), value):
@@ -167,6 +169,26 @@ class Evidence:
         }
 
 
+def _not_finite(numbers: np.ndarray) -> str:
+    """Return what an array holds besides finite numbers.
+
+    Examples
+    --------
+    >>> _not_finite(np.array([1.0, -np.inf, np.nan]))
+    'nan and infinity'
+    """
+    found = {"nan": np.isnan(numbers), "infinity": np.isinf(numbers)}
+    return " and ".join(what for what, where in found.items() if where.any())
+
+
+def _is_right(observation: Observation) -> bool:
+    """Whether the answer is the expected one. The call failed for another reason, as if it changed an argument."""
+    if observation.expected is None:
+        return False
+    answer = observation.counted(observation.got)
+    return compare.difference(answer, observation.counted(observation.expected)) is None
+
+
 def _plain_hint(observation: Observation) -> str | None:
     """Return a hint that needs no known mistake."""
     answer = observation.counted(observation.got)
@@ -178,8 +200,7 @@ def _plain_hint(observation: Observation) -> str | None:
     for value in [answer, *(answer if several else [])]:
         numbers = compare.as_numbers(value)
         if numbers is not None and not np.isfinite(numbers).all():
-            what = "nan" if np.isnan(numbers).any() else "infinity"
-            return NOT_FINITE.format(what=what)
+            return NOT_FINITE.format(what=_not_finite(numbers))
     table = compare.as_numbers(answer)
     turned = table.T if table is not None and table.ndim == 2 else None
     if turned is not None and not compare.difference(turned, observation.expected):

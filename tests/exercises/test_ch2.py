@@ -390,9 +390,9 @@ def test_explorer_that_has_seen_nothing(answer, rng):
     answer.agrees(*nothing, size, 1, rng.uniform(1, 3), rng.uniform(0.5, 0.9))
 
 
-def steered(answer, worlds):
+def steered(answer, simulator):
     """How the episodes end of robots that the student's function steers, without reflexes."""
-    from robonav.robot import navigate
+    from robonav.robot import navigate_in
 
     def policy(sensing, rng):
         got = answer.ask(sensing.ranges, sensing.target_region, sensing.target_seen)
@@ -408,15 +408,16 @@ def steered(answer, worlds):
         )
         return actions
 
-    return navigate(policy, worlds, max_steps=250, reflex=None).outcome
+    return navigate_in(policy, simulator, reflex=None)
 
 
 def steers(answer, rng, obstacles, least):
     """Require that many of 200 robots arrive. Among fewer, a robot that goes straight could pass by luck."""
     from robonav.grading.episode_outcomes import require_arrivals
-    from robonav.robot import random_worlds
+    from robonav.robot import Simulator, random_worlds
 
-    outcomes = steered(answer, random_worlds(200, obstacles, seed=rng))
+    worlds = random_worlds(200, obstacles, seed=rng)
+    outcomes = steered(answer, Simulator(worlds, max_steps=250)).outcome
     require_arrivals(
         answer,
         outcomes,
@@ -429,12 +430,42 @@ def steers(answer, rng, obstacles, least):
 
 
 @pytest.mark.part("2.9", points=2)
+def test_steer_to_the_target(answer, rng):
+    """Goes to its target nearly straight where nothing is in the way, whatever place and heading it starts with."""
+    from dataclasses import replace
+
+    from robonav.robot import Simulator, random_worlds
+
+    n = 200
+    bearing, distance = rng.uniform(0, 2 * np.pi, n), rng.uniform(30, 40, n)
+    targets = np.full((n, 2), 50.0)
+    away = np.column_stack([np.cos(bearing), np.sin(bearing)])
+    starts = targets + distance[:, None] * away
+    worlds = replace(random_worlds(n, 0, seed=rng), starts=starts, targets=targets)
+    simulator = Simulator(worlds, max_steps=250)
+    simulator.poses = np.column_stack([starts, rng.uniform(0, 2 * np.pi, n)])
+    result = steered(answer, simulator)
+    arrived = result.outcome == "arrived"
+    soon = arrived & (result.steps <= 1.1 * distance / 2 + 4)
+    answer.check(
+        soon.sum() >= 170,
+        f"expected 170 of {n} robots to arrive with at most a tenth more than the straight way and 4 steps, "
+        f"got {soon.sum()}; arrived later: {(arrived & ~soon).sum()}, not at all: {(~arrived).sum()}",
+        "Robots that arrive late turn to a wrong sector, or the long way round. Go through the regions from 1 to 9: "
+        "on which side of the robot is each, and how far must it turn?"
+        if arrived.sum() >= 100
+        else "Nothing is near here, so the robot must turn to its target by itself. On which side of the robot is "
+        "each of the regions from 1 to 9?",
+    )
+
+
+@pytest.mark.part("2.9", points=1)
 def test_steer_among_some_obstacles(answer, rng):
     """Arrives in three of four worlds with five obstacles; a robot that goes straight arrives in three of five."""
     steers(answer, rng, 5, 150)
 
 
-@pytest.mark.part("2.9", points=2)
+@pytest.mark.part("2.9", points=1)
 def test_steer_among_more_obstacles(answer, rng):
     """Arrives in three of four worlds with ten obstacles; a robot that goes straight arrives in two of five."""
     steers(answer, rng, 10, 150)
@@ -514,6 +545,23 @@ def returned(world, policy, discount):
     return np.linalg.solve(np.eye(len(gains)) - discount * flow, flow @ gains)[start]
 
 
+def what_to_look_at(poor, found, sure):
+    """The hint for a learner that gains too little, from what it did."""
+    if sure < 0.7:
+        return "The last policy still takes many actions at random. With no rounds left, use what was learned."
+    if any(bad and not came for bad, came in zip(poor, found, strict=True)):
+        return (
+            "In a world with almost nothing gained, the robot has never come to the goal. It must also try what it has "
+            "seldom done."
+        )
+    if any(poor):
+        return (
+            "In worlds with almost nothing gained, the robot came to the goal, but its last policy is no better than "
+            "random steps. Look at whether what is learned about the goal gets back to the first cell."
+        )
+    return "Something is gained in each world. Look at whether all steps are used, and often enough."
+
+
 def learned(answer, rng, side, slip, small, least):
     """Require a share of the way from the return of a robot that goes anywhere to the best return.
 
@@ -522,7 +570,14 @@ def learned(answer, rng, side, slip, small, least):
     estimated model reached as much. Q-learning that begins with zeros and takes every second action at random passes
     each part mostly, and not always.
     """
-    discount, gained = 0.95, []  # by world: what the robot gained, and what can be gained
+    discount, gained = (
+        0.95,
+        [],
+    )  # by world: what the robot gained, and what can be gained
+    found, sure = (
+        [],
+        [],
+    )  # by world: whether it came to the goal; how sure the last policy is of its actions
     for _ in range(4):
         world = hidden_world(rng, side, slip, small, discount)
         transitions, gains, ends, start = world
@@ -547,18 +602,16 @@ def learned(answer, rng, side, slip, small, least):
         anywhere = returned(world, np.full(size, 0.25), discount)
         best = best_values(transitions, gains, ends, discount)[start]
         gained.append([returned(world, policy, discount) - anywhere, best - anywhere])
+        found.append(bool((gains[steps[:, 2]] == 1).any()))
+        sure.append(policy[~ends].max(axis=1).mean())
     own, most = np.sum(gained, axis=0)
     reached = int(100 * own / most)
     shares = ", ".join(f"{100 * mine / best:.0f}" for mine, best in gained)
-    few = sum(mine < 0.1 * best for mine, best in gained)
+    poor = [mine < 0.1 * best for mine, best in gained]
     answer.check(
         reached >= least,
         f"expected {least} % of what can be gained by learning, got {reached} %; in the four worlds {shares} %",
-        "In worlds with almost nothing gained the last policy is no better than random steps, or worse. Look at "
-        "whether the robot has found the goal there: it must also try what it has seldom done."
-        if few
-        else "Something is gained in each world. Look at whether all steps are used, and often enough, and whether "
-        "the policy of the last round still takes actions at random.",
+        what_to_look_at(poor, found, np.mean(sure)),
     )
 
 

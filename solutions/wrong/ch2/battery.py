@@ -107,6 +107,18 @@ def same_charge(transitions, rewards, costs, charge):
     return values
 
 
+def worth_minus_infinity(transitions, rewards, costs, charge):
+    """If no action is possible the episode ends, and the value is 0, not minus infinity."""
+    values = np.full((charge + 1, transitions.shape[1]), -np.inf)
+    values[0] = 0.0
+    for left in range(1, charge + 1):
+        for a, cost in enumerate(costs):
+            if cost <= left:
+                q = rewards[:, a] + transitions[a] @ values[left - cost]
+                values[left] = np.maximum(values[left], q)
+    return values
+
+
 def averages(transitions, rewards, costs, charge):
     """The robot takes the best action, so take the maximum over the possible actions, not their mean."""
     values = np.zeros((charge + 1, transitions.shape[1]))

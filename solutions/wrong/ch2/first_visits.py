@@ -71,6 +71,25 @@ def without_its_own(states, rewards, discount, size):
     return _mean([pair for first in pairs for pair in first.items()], size)
 
 
+def without_its_own_discounted(states, rewards, discount, size):
+    """The return begins with the reward of the step from the visited state, which is not discounted."""
+    pairs = [
+        dict(
+            reversed(
+                list(
+                    zip(
+                        v,
+                        [discount * after for after in _returns(e, discount)[1:]]
+                        + [0.0],
+                    )
+                )
+            )
+        )
+        for v, e in zip(states, rewards)
+    ]
+    return _mean([pair for first in pairs for pair in first.items()], size)
+
+
 def over_all_episodes(states, rewards, discount, size):
     """Take the mean over the episodes that visited the state, not over all episodes."""
     pairs = [

@@ -46,6 +46,11 @@ def any_best_is_kept(q, policy, tolerance):
     return np.where(better, q.argmax(axis=1), policy)
 
 
+def first_within_the_tolerance(q, policy, tolerance):
+    """Keep the current action unless one gains more than the tolerance. Then take the best, not the first good one."""
+    return (q >= q.max(axis=1, keepdims=True) - tolerance).argmax(axis=1)
+
+
 def tolerance_of_the_best(q, policy, tolerance):
     """The tolerance decides whether to change. A change goes to the best action, not to the first good one."""
     current = q[np.arange(len(q)), policy]
