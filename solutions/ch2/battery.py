@@ -1,10 +1,10 @@
-"""A robot plans until its battery is empty. Every action uses a whole number of units
-of charge, at least one. An action that needs more units than are left is not possible.
-The robot cannot stop of its own accord: the episode ends when no action is possible,
-and not before, even if all rewards are negative. If no action is possible, the value is
-0. So the horizon is finite, but it is the charge that counts down, and not the time.
-Rewards are not discounted. Compute the largest expected sum of rewards from every state
-with every charge.
+"""A robot plans until its battery is empty. The horizon is finite, but it is the charge
+that counts down, and not the time. Every action uses a whole number of units of charge,
+at least one. An action that needs more units than are left is not possible. The robot
+cannot stop of its own accord: the episode ends when no action is possible, and not
+before, even if all rewards are negative. Rewards are not discounted. After the end the
+value is 0. Compute the largest expected sum of rewards from every state with every
+charge.
 """
 
 import numpy as np
