@@ -91,13 +91,13 @@ def wide_stubs(html: str) -> Iterator[str]:
 def faults(html: str) -> Iterator[str]:
     """Yield one sentence for each fault of the listings of one page."""
     soup = parsed(html)
-    numbers: list[str] = []  # the page's equations, in its order
-    listed: set[citations.Number] = set()  # the numbers that the comments of its listings carry
+    equations: list[str] = []  # the numbers of the page's equations, in its order
+    listed: set[citations.Number] = set()  # those that its listings carry
     for found in soup.select("div.math[id^=equation-eq-], div.function-source"):
         if "math" in (found.get("class") or ()):
             number = _number(str(found["id"]))
             if number and citations.key(number) not in citations.symbols():
-                numbers.append(number)
+                equations.append(number)
             continue
         text = found.get_text().strip("\n")
         caption = found.find_previous_sibling(class_="code-block-caption")
@@ -111,7 +111,7 @@ def faults(html: str) -> Iterator[str]:
         for kind in plumbing(text):
             yield f"{name} shows {kind}"
         listed |= citations.cited("equations", text)
-    for number in numbers:
+    for number in equations:
         if citations.key(number) not in listed:
             yield f"no listing carries the number of Eq. ({number})"
 
