@@ -2,8 +2,8 @@
 
 export default explorable({
   controls: () => ({
-    target: range({ label: "new target of the second action", from: -1, to: 2, step: 0.05, value: 0.7, text: (value) => number(value) }),
-    how: segments({ label: "rescaled by", options: [["clip", "clipping"], ["shift", "shifting and dividing"]], value: "shift" }),
+    target: range({ label: "new target of the second action", from: -1, to: 2, step: 0.05, value: -0.4, text: (value) => number(value) }),
+    how: segments({ label: "rescaled by", options: [["clip", "clipping"], ["shift", "shifting and dividing"]], value: "clip" }),
   }),
   draw({ given: { q, taken }, stage }) {
     const chart = plot({ x: [0, 5], y: [-1, 2], xLabel: "action", yLabel: "Q-value", xTicks: [] });

@@ -26,7 +26,7 @@ def listed(numbers: np.ndarray) -> str:
     return ", ".join(str(float(number)) for number in numbers)
 
 
-@expects(choose("rescaled by", "clipping"), by_keyboard=[slide_all])
+@expects(choose("rescaled by", "shifting and dividing"), by_keyboard=[slide_all])
 def one_q_update(shown: Shown) -> None:
     q = np.array([0.2, 0.9, 0.5, 0.4, 0.6])
     target = shown.number("new target of the second action")
