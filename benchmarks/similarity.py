@@ -20,19 +20,21 @@ from __future__ import annotations
 
 import argparse
 import ast
+import dataclasses
 import json
 import random
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from robonav.grading.course import Course
 from robonav.grading.fingerprints import Fingerprint, fingerprint
-from robonav.grading.similarity import FEWEST, THRESHOLD, Pair, pairs
+from robonav.grading.similarity import FEWEST, THRESHOLD, Pair, pairs, patchworks
 
 ROOT = Path(__file__).parents[1]
-FOLDER = ROOT / "tests/unit/grading/similar"
+TRANSLATED = ROOT / "tests/unit/grading/similar/translated"
 EXERCISES = {
     "2.1": "backup",
     "2.2": "improve",
@@ -47,7 +49,7 @@ EXERCISES = {
 }
 HELD_OUT = ("2.7", "3.1", "3.2", "3.5")
 RINGS = (3, 4, 6, 9)
-SIZES = (6, 8, 12, 30)
+SIZES = (3, 5, 6, 8, 12, 30)
 THIRD = "third"  # a pair of a third person with one of two who copied
 DISGUISES = ("recommented", "renamed", "reordered", "translated")
 Functions = dict[str, dict[int, ast.Module]]
@@ -57,7 +59,7 @@ def functions(kind: str) -> Functions:
     """Return the answers of a kind, by exercise and number. Each is a module of its own."""
     found: Functions = {}
     for id, name in EXERCISES.items():
-        tree = ast.parse((FOLDER / kind / f"{name}.py").read_text("utf-8"))
+        tree = ast.parse(_path(kind, id, name).read_text("utf-8"))
         imports = [n for n in tree.body if isinstance(n, ast.Import | ast.ImportFrom)]
         found[id] = {
             int(node.name.rpartition("_")[2]): ast.Module([*imports, node], [])
@@ -65,6 +67,14 @@ def functions(kind: str) -> Functions:
             if isinstance(node, ast.FunctionDef)
         }
     return found
+
+
+def _path(kind: str, id: str, name: str) -> Path:
+    """Return the file of the answers of a kind to an exercise."""
+    if kind == "translated":
+        return TRANSLATED / f"{name}.py"
+    course = Course(ROOT)
+    return course.solutions / "honest" / course.exercises[id].file
 
 
 class Renamed(ast.NodeTransformer):
@@ -170,82 +180,130 @@ def known() -> dict[str, list[Fingerprint]]:
     return found
 
 
+@dataclasses.dataclass
+class Drawn:
+    """A class of students with their answers, of whom some copied.
+
+    Attributes
+    ----------
+    order : dict of str to list of int
+        The number of each student's honest answer, by exercise.
+    stolen : dict
+        By thief and exercise: from whom an answer is copied, and the disguise.
+    """
+
+    order: dict[str, list[int]]
+    stolen: dict[tuple[int, str], tuple[int, str]] = dataclasses.field(
+        default_factory=dict
+    )
+
+    def steal(self, thief: int, victim: int, ids: Sequence[str], how: str, rng: random.Random) -> None:  # fmt: skip
+        """Let somebody copy answers. An answer that has a translation changes places with the victim's."""
+        for id in ids:
+            order = self.order[id]
+            if how == "translated" and order[victim] not in TRANSLATIONS[id]:
+                fixed = {order[whose] for (_, of), (whose, _) in self.stolen.items() if of == id}  # fmt: skip
+                k = rng.choice(sorted(TRANSLATIONS[id].keys() - fixed))
+                if k in order:
+                    order[order.index(k)] = order[victim]
+                order[victim] = k
+            self.stolen[thief, id] = (victim, how)
+
+    def answers(self, rng: random.Random) -> dict[str, dict[str, Fingerprint]]:
+        """Return what each student hands in."""
+        found: dict[str, dict[str, Fingerprint]] = {}
+        for id, order in self.order.items():
+            for n, k in enumerate(order):
+                one = _print(id, k)
+                if (n, id) in self.stolen:
+                    victim, how = self.stolen[n, id]
+                    source = TRANSLATIONS if how == "translated" else HONEST
+                    one = _print(id, order[victim])
+                    if how:
+                        one = disguised(source[id][order[victim]], how, rng)
+                found.setdefault(named(n), {})[id] = one
+        return found
+
+    def known(self) -> dict[str, list[Fingerprint]]:
+        """Return what the command knows: the stub, the solutions, and the honest answers that nobody here wrote."""
+        return {
+            id: [*_solutions()[id], *(_print(id, k) for k in HONEST[id] if k not in order)]
+            for id, order in self.order.items()
+        }  # fmt: skip
+
+    def copies(self) -> dict[tuple[str, str], str]:
+        """Return the pairs of thief and victim, with the disguise of the last answer."""
+        return {
+            (named(thief), named(victim)): how
+            for (thief, _), (victim, how) in self.stolen.items()
+        }
+
+
+def named(number: int) -> str:
+    """Return the name of a student."""
+    return f"student {number:02}"
+
+
+HONEST, TRANSLATIONS = functions("honest"), functions("translated")
+
+
+@cache
+def _print(id: str, number: int) -> Fingerprint:
+    tree = HONEST[id][number]
+    return fingerprint(tree, _main(tree))
+
+
+@cache
+def _solutions() -> dict[str, list[Fingerprint]]:
+    return known()
+
+
 def classes(
     number: int,
     exercises: int,
     pool: Sequence[str] = (),
     copied: int = 0,
     size: int = 12,
+    sources: int = 1,
     shared: int = 0,
 ) -> Iterator[tuple[list[Pair], dict[tuple[str, str], str]]]:
     """Yield the compared pairs of random classes, and which of them are copies, with the disguise.
 
-    A class has this number of students and of exercises of the pool. Of the exercises ``copied`` are copied, or all. A
-    third person has ``shared`` of these answers too.
+    A class has this number of students and of exercises of the pool. One student copies ``copied`` of them, or all,
+    from as many ``sources``, from each another part. In a class of five or more, another one copies as many from one
+    source. A third person has ``shared`` of the first one's answers too.
     """
-    honest, translated, others = functions("honest"), functions("translated"), known()
-    prints = {
-        id: {k: fingerprint(tree, _main(tree)) for k, tree in found.items()}
-        for id, found in honest.items()
-    }
     for seed in range(number):
         rng = random.Random(seed)
-        chosen = rng.sample(sorted(pool or EXERCISES), exercises)
-        taken = chosen[: copied or exercises]
-        order = {id: _by_taste(honest[id], rng, size) for id in chosen}
-        people = rng.sample(range(size), 4)
-        hows = rng.sample(DISGUISES, 2)
-        copies: dict[tuple[str, str], str] = {}
-        own: dict[tuple[int, str], Fingerprint] = {}
-        for thief, victim, how in zip(people[:2], people[2:], hows, strict=True):
-            copies[f"student {victim:02}", f"student {thief:02}"] = how
-            for id in taken:
-                if how == "translated":  # an answer with a translation changes place
-                    k = rng.choice(sorted(translated[id]))
-                    if k in order[id]:
-                        order[id][order[id].index(k)] = order[id][victim]
-                    order[id][victim] = k
-                source = translated if how == "translated" else honest
-                tree = source[id][order[id][victim]]
-                own[thief, id] = disguised(tree, how, rng)
-        # The victims' answers are settled only now.
-        for thief, victim, how in zip(people[:2], people[2:], hows, strict=True):
-            for id in taken if how != "translated" else ():
-                own[thief, id] = disguised(honest[id][order[id][victim]], how, rng)
-        if shared:
-            thief, victim = people[0], people[2]
-            third = rng.choice([n for n in range(size) if n not in people])
-            for id in rng.sample(taken, shared):
-                tree = honest[id][order[id][victim]]
-                own[third, id] = disguised(tree, rng.choice(DISGUISES[:3]), rng)
-            for other in (thief, victim):
-                copies[f"student {third:02}", f"student {other:02}"] = THIRD
-        answers = {
-            f"student {n:02}": {
-                id: own.get((n, id), prints[id][order[id][n]]) for id in chosen
-            }
-            for n in range(size)
-        }
-        yield pairs(answers, others), copies
+        ids = rng.sample(sorted(pool or EXERCISES), exercises)
+        drawn = Drawn({id: _by_taste(HONEST[id], rng, size) for id in ids})
+        people = rng.sample(range(size), size)
+        taken = ids[: copied or exercises]
+        for k in range(sources):
+            drawn.steal(people[0], people[k + 1], taken[k::sources], rng.choice(DISGUISES), rng)  # fmt: skip
+        others = people[sources + 1 :]
+        if len(others) >= 2:
+            drawn.steal(others[0], others[1], taken, rng.choice(DISGUISES), rng)
+        for id in rng.sample(taken, shared):
+            drawn.steal(others[2], people[1], [id], rng.choice(DISGUISES[:3]), rng)
+        copies = drawn.copies()
+        for other in people[:2] if shared else ():
+            copies[named(others[2]), named(other)] = THIRD
+        yield pairs(drawn.answers(rng), drawn.known()), copies
 
 
 def ringed(
     number: int, size: int, disguises: Sequence[str] = DISGUISES[:3]
 ) -> Iterator[tuple[list[Pair], set[str]]]:
     """Yield the compared pairs of random classes, and the ring in it. Without disguises its answers are equal."""
-    honest, others = functions("honest"), known()
     for seed in range(number):
         rng = random.Random(seed)
-        order = {id: _by_taste(honest[id], rng) for id in EXERCISES}
+        drawn = Drawn({id: _by_taste(HONEST[id], rng, 12) for id in EXERCISES})
         ring = rng.sample(range(12), size)
-        answers: dict[str, dict[str, Fingerprint]] = {}
-        for n in range(12):
-            how = rng.choice(disguises) if n in ring and disguises else ""
-            for id in EXERCISES:
-                tree = honest[id][order[id][ring[0] if n in ring else n]]
-                one = disguised(tree, how, rng) if how else fingerprint(tree, _main(tree))  # fmt: skip
-                answers.setdefault(f"student {n:02}", {})[id] = one
-        yield pairs(answers, others), {f"student {n:02}" for n in ring}
+        for thief in ring[1:]:
+            how = rng.choice(disguises) if disguises else ""
+            drawn.steal(thief, ring[0], list(EXERCISES), how, rng)
+        yield pairs(drawn.answers(rng), drawn.known()), {named(n) for n in ring}
 
 
 def _by_taste(
@@ -283,22 +341,35 @@ def measured(
     pool: Sequence[str] = (),
     copied: int = 0,
     size: int = 12,
+    sources: int = 1,
     shared: int = 0,
 ) -> dict[str, Any]:
-    """Return the shares of copies and of honest pairs that are reported."""
+    """Return the shares of copies and of honest pairs that are reported, and of thieves and honest students."""
     found, total = Counter[str](), Counter[str]()
-    for compared, copies in classes(number, exercises, pool, copied, size, shared):
+    drawn = classes(number, exercises, pool, copied, size, sources, shared)
+    for compared, copies in drawn:
         for pair in compared:
             names = (pair.first, pair.second)
             kind = copies.get(names, copies.get(names[::-1], "honest"))
             total[kind] += 1
             found[kind] += pair.score >= THRESHOLD
+        several = {one.student for one in patchworks(compared)}
+        thieves = Counter(thief for thief, _ in copies)
+        involved = {name for names in copies for name in names}
+        for name in {name for pair in compared for name in (pair.first, pair.second)}:
+            kind = "honest student" if name not in involved else "in one pair"
+            if not shared or kind == "honest student":
+                kind = "patchwork" if thieves[name] > 1 else kind
+                total[kind] += 1
+                found[kind] += name in several
     return {
         "students": size,
         "exercises": exercises,
         "copied": copied or exercises,
+        "sources": sources,
+        "classes": number,
         "reported": {k: round(found[k] / total[k], 4) for k in sorted(total)},
-        "pairs": dict(sorted(total.items())),
+        "of": dict(sorted(total.items())),
     }
 
 
@@ -318,9 +389,9 @@ def ring_measured(number: int, size: int) -> dict[str, Any]:
     }
 
 
-def _classes_by_size(number: int) -> dict[int, int]:
-    """Return how many classes of each size are drawn: fewer large ones, which take longer."""
-    return {size: max(1, number // (2 if size <= 12 else 10)) for size in SIZES}
+def _classes_of(size: int, number: int) -> int:
+    """Return how many classes of a size are drawn: fewer large ones, which have more pairs."""
+    return max(1, number * 12 // max(size, 4) // (3 if size > 12 else 1))
 
 
 def main() -> None:
@@ -330,20 +401,38 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=ROOT / "benchmarks/similarity.json")
     options = parser.parse_args()
     number = options.classes
+    by_size = {size: _classes_of(size, number) for size in SIZES}
+    held = len(HELD_OUT)
     result = {
         "threshold": THRESHOLD,
         "fewest": FEWEST,
         "classes": number,
         "all copied": [measured(number, k) for k in (1, 2, 3, 4, 6, 8, 10)],
-        "half copied": measured(number, 10, copied=5),
-        "held out": measured(number, len(HELD_OUT), HELD_OUT),
+        "half copied": [measured(number, k, copied=k // 2) for k in (6, 10)],
+        "held out": [
+            measured(number, held, HELD_OUT),
+            measured(number, held, HELD_OUT, copied=held // 2),
+            measured(number, held, HELD_OUT, sources=2),
+            measured(by_size[30], held, HELD_OUT, size=30),
+        ],
         "sizes": [
-            {"classes": many} | measured(many, 6, size=size)
-            for size, many in _classes_by_size(number).items()
+            {
+                "students": size,
+                "all": measured(many, 6, size=size),
+                "half": measured(many, 6, copied=3, size=size),
+                "two sources": measured(many, 6, size=size, sources=2),
+            }
+            for size, many in by_size.items()
+        ],
+        "each from another": [
+            measured(many, 4, size=size, sources=4)
+            for size, many in by_size.items()
+            if size > 4
         ],
         "a third person": [
-            {"classes": many} | measured(many, 10, copied=5, size=size, shared=3)
-            for size, many in _classes_by_size(number).items()
+            measured(many, 10, copied=5, size=size, shared=3)
+            for size, many in by_size.items()
+            if size > 4
         ],
         "rings": [ring_measured(max(1, number // 4), size) for size in RINGS],
     }

@@ -465,9 +465,18 @@ def similarity(
     out: Annotated[
         Path, typer.Option(help="The page to write; its scores go beside it as CSV.")
     ] = Path("similarity.html"),
+    variant: Variant = None,
 ) -> None:
     """Show the pairs of submissions that are too alike, side by side. No code is run."""
-    tell_similar(folder, out, _books_course())
+    from tempfile import TemporaryDirectory
+
+    from .variants import write
+
+    if variant is None:
+        tell_similar(folder, out, _books_course())
+        return
+    with TemporaryDirectory() as place:
+        tell_similar(folder, out, write(_books_course(), variant, Path(place)))
 
 
 def tell_similar(folder: Path, out: Path, course: Course) -> None:
@@ -480,6 +489,10 @@ def tell_similar(folder: Path, out: Path, course: Course) -> None:
     print(
         f"Pairs that are too alike: {len(found.pairs)} of {found.compared}; see {out}"
     )
+    if found.patchworks:
+        print(f"Answers like those of several others: {len(found.patchworks)}")
+    if found.near:
+        print(f"Worth a look, not reported: {len(found.near)}")
     if found.few:
         print(
             f"Pairs with fewer than {copies.FEWEST} exercises in common, too few to tell: {found.few}. Put the "

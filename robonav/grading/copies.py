@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import json
-import math
 import multiprocessing
 import sys
 import tempfile
@@ -26,12 +25,16 @@ from .classroom import students
 from .course import Course
 from .fingerprints import Feature, Fingerprint, fingerprint
 from .report import csv_text, page
-from .similarity import FEWEST, THRESHOLD, Pair, pairs
+from .similarity import FEWEST, THRESHOLD, Pair, Patchwork, pairs, patchworks
 from .submission import Refused
 
 SECONDS = 20.0  # to read one submission
 MEMORY = 2 << 30
 MOST_SHOWN = 200  # pairs on the page
+MOST_NEAR = 20  # pairs just below the threshold
+NOT_REPORTED = "worth a look, not reported"
+CSV_COLUMNS = ["list", "first", "second", "score", "exercises", "most_alike"]
+HONEST = "honest"  # the folder of honest answers, in that of the solutions
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +63,10 @@ class Comparison:
         The answers of each student by exercise.
     pairs : list of Pair
         The pairs that are too alike, those that are most first.
+    near : list of Pair
+        The nearest pairs below the threshold, which are not reported.
+    patchworks : list of Patchwork
+        The students whose answers are like those of several others.
     compared : int
         Number of pairs that were compared.
     few : int
@@ -70,6 +77,8 @@ class Comparison:
 
     answers: Mapping[str, Mapping[str, Answer]]
     pairs: list[Pair]
+    near: list[Pair]
+    patchworks: list[Patchwork]
     compared: int
     few: int
     problems: list[str]
@@ -123,20 +132,58 @@ def compare_class(course: Course, folder: Path) -> Comparison:
         reader.close()
     prints = {n: {id: one.print for id, one in own.items()} for n, own in found.items()}
     every = pairs(prints, _known(course))
-    few = sum(len(pair.exercises) < FEWEST for pair in every)
-    alike = [pair for pair in every if pair.reported]
-    return Comparison(found, alike, len(every), few, problems)
+    return Comparison(
+        found,
+        pairs=[pair for pair in every if pair.reported],
+        near=[pair for pair in every if pair.near][:MOST_NEAR],
+        patchworks=patchworks(every),
+        compared=len(every),
+        few=sum(len(pair.exercises) < FEWEST for pair in every),
+        problems=problems,
+    )
 
 
 def _known(course: Course) -> dict[str, list[Fingerprint]]:
-    """Return what everybody may share: the stub, the solution and the other solution of each exercise."""
+    """Return what everybody may share: the stub, the solutions and the honest answers to each exercise."""
     known = dict[str, list[Fingerprint]]()
     for id, exercise in course.exercises.items():
         for place in (course.stubs, course.solutions, course.solutions / "otherwise"):
             if (path := place / exercise.file).is_file():
                 tree = ast.parse(path.read_bytes())
                 known.setdefault(id, []).append(fingerprint(tree, exercise.name))
+    books = _book(course)
+    for id in known.keys() & books.exercises.keys():
+        known[id] += honest_answers(books, id)
     return known
+
+
+def _book(course: Course) -> Course:
+    """Return the course itself, or the book's if the course is a variant, which has no honest answers."""
+    if course.solutions.joinpath(HONEST).is_dir():
+        return course
+    return Course.around(Path(__file__).parent, Path.cwd())
+
+
+def honest_answers(course: Course, id: str) -> list[Fingerprint]:
+    """Return the fingerprints of the honest answers to an exercise that come with the course.
+
+    They were written for the book's exercise. A variant changes few of their statements.
+
+    Examples
+    --------
+    >>> len(honest_answers(Course.around(), "2.4"))
+    30
+    """
+    path = course.solutions / HONEST / course.exercises[id].file
+    if not path.is_file():
+        return []
+    tree = ast.parse(path.read_bytes())
+    imports = [n for n in tree.body if isinstance(n, ast.Import | ast.ImportFrom)]
+    return [
+        fingerprint(ast.Module([*imports, node], []), node.name)
+        for node in tree.body
+        if isinstance(node, ast.FunctionDef)
+    ]
 
 
 class _Reader:
@@ -261,29 +308,51 @@ def write_comparison(comparison: Comparison, course: Course, path: Path) -> None
     --------
     >>> import tempfile
     >>> path = Path(tempfile.mkdtemp()) / "similarity.html"
-    >>> write_comparison(Comparison({}, [], 0, 0, []), Course.around(Path()), path)
+    >>> write_comparison(Comparison({}, [], [], [], 0, 0, []), Course.around(), path)
     >>> sorted(file.name for file in path.parent.iterdir())
     ['similarity.csv', 'similarity.html']
     """
-    rows: list[list[Any]] = [["first", "second", "score", "exercises", "most_alike"]]
-    for pair in comparison.pairs:
-        alike = _by_likeness(pair)
-        rows.append([pair.first, pair.second, round(pair.score, 2), len(alike), " ".join(alike[:5])])  # fmt: skip
-    write_text(path.with_suffix(".csv"), csv_text(rows))
-    shown = [
-        (pair, [(id, pair.exercises[id], *_marked(comparison, pair, id)) for id in _by_likeness(pair)])
-        for pair in comparison.pairs[:MOST_SHOWN]
-    ]  # fmt: skip
+    write_text(path.with_suffix(".csv"), csv_text(_rows(comparison)))
     text = page(
         "similarity.html",
         comparison=comparison,
-        shown=shown,
+        shown=_side_by_side(comparison, comparison.pairs[:MOST_SHOWN]),
+        near=_side_by_side(comparison, comparison.near),
         course=course,
         fewest=FEWEST,
         chance=_one_in,
         csv=path.with_suffix(".csv").name,
     )
     write_text(path, text)
+
+
+def _rows(comparison: Comparison) -> list[list[Any]]:
+    """Return the rows of the CSV file: pairs that are reported, students with several sources, and pairs below."""
+    rows: list[list[Any]] = [CSV_COLUMNS]
+    for name, found in (
+        ("reported", comparison.pairs),
+        (NOT_REPORTED, comparison.near),
+    ):
+        for pair in found:
+            alike, score = _by_likeness(pair), round(pair.score, 2)
+            rows.append([name, pair.first, pair.second, score, len(alike), " ".join(alike[:5])])  # fmt: skip
+    for one in comparison.patchworks:
+        rows += [
+            ["several sources", one.student, source, round(one.score, 2), len(ids), " ".join(ids)]
+            for source, ids in one.sources.items()
+        ]  # fmt: skip
+    return rows
+
+
+Shown = tuple[Pair, list[tuple[Any, ...]]]
+
+
+def _side_by_side(comparison: Comparison, found: Sequence[Pair]) -> list[Shown]:
+    """Return what the page shows of each pair: by exercise how alike it is, and the lines of both."""
+    return [
+        (pair, [(id, pair.exercises[id], *_marked(comparison, pair, id)) for id in _by_likeness(pair)])
+        for pair in found
+    ]  # fmt: skip
 
 
 def _one_in(score: float) -> str:
@@ -293,7 +362,7 @@ def _one_in(score: float) -> str:
 
 def _by_likeness(pair: Pair) -> list[str]:
     """Return the exercises, those that are most alike first."""
-    return sorted(pair.exercises, key=lambda id: math.prod(pair.exercises[id].chances))
+    return sorted(pair.exercises, key=lambda id: pair.exercises[id].chance)
 
 
 def _marked(

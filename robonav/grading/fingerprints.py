@@ -217,6 +217,8 @@ class _Flow:
                 for operand in operands:
                     for inner in self._tops(operand):
                         found[("of", operation, inner, self._origin(operand))] += 1
+                        # Also without the origin, which a translation may change.
+                        found[("of", operation, inner)] += 1
         return found
 
     def _spread(self, body: Iterable[ast.stmt], condition: set[int]) -> None:
@@ -231,9 +233,7 @@ class _Flow:
                 self._bind(node.target, node.iter, condition, each=True)
             elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
                 called = node.value.func
-                if isinstance(called, ast.Attribute) and isinstance(
-                    called.value, ast.Name
-                ):
+                if isinstance(called, ast.Attribute):
                     for argument in node.value.args:
                         self._bind(called.value, argument, condition)
             for comprehension in self._comprehensions(node):
@@ -307,6 +307,8 @@ class _Flow:
             "dtype",
         ):
             return set()
+        if isinstance(node, ast.BinOp) and (repeated := _repeated(node)):
+            return self._of(repeated)
         if isinstance(node, ast.Call):
             called = _called(node)
             if called in SHAPES:
@@ -342,6 +344,8 @@ class _Flow:
     def _operations(self, node: ast.AST) -> Iterator[tuple[str, list[ast.AST]]]:
         """Yield the operations of a node, with the same names for loops and arrays."""
         if isinstance(node, ast.BinOp):
+            if _repeated(node):
+                return
             if isinstance(node.op, ast.MatMult):
                 yield from _product([node.left, node.right])
             elif name := OPERATORS.get(type(node.op)):
@@ -390,6 +394,9 @@ class _Flow:
             yield from _product(
                 [x for x in operands if not isinstance(x, ast.Constant)]
             )
+        elif name == "mean" and operands:
+            yield "sum", operands[:1]
+            yield "div", [operands[0], ast.Constant(1)]
         elif name == "where" and len(operands) == 3:
             yield "choose", [operands[0]]
         elif name in KEPT and operands:
@@ -413,6 +420,12 @@ def _product(factors: list[ast.AST]) -> Iterator[tuple[str, list[ast.AST]]]:
         first, last = cast(ast.expr, factors[0]), cast(ast.expr, factors[-1])
         yield "mul", sorted([first, last], key=ast.dump)
         yield "sum", [ast.BinOp(first, ast.Mult(), last)]
+
+
+def _repeated(node: ast.BinOp) -> ast.List | None:
+    """Return the list that is repeated a number of times, as in ``[0] * n``."""
+    sides = (node.left, node.right) if isinstance(node.op, ast.Mult) else ()
+    return next((side for side in sides if isinstance(side, ast.List)), None)
 
 
 def _called(node: ast.Call) -> str:

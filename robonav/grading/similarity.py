@@ -4,13 +4,14 @@ A short function tells nothing: two honest answers to a small exercise may be eq
 enough, because honest students do not write alike in all of them. For each exercise all pairs of the class are
 compared. What many answers share, because the stub or the exercise forces it, weighs little; what few share weighs
 much. An answer that is written as many write is like many others, so that a pair's likeness is measured against how
-alike each of the two answers is to the others. The pair's rank among all pairs of the class says how likely so much of
-it is by chance, and Fisher's method combines these probabilities over the exercises that both answered.
+alike each of the two answers is to the others. The pair's rank among all pairs says how likely so much of it is by
+chance, and Fisher's method combines these probabilities over the exercises that both answered.
+
+A small class alone cannot tell what is common. Honest answers that come with the course are therefore compared as if
+further students had handed them in.
 
 A group of three or more who copied from one another would make its own likeness common. Such a ring therefore counts as
-one student: in how many of the class have something, and in the pairs that a pair is ranked among. In a small class a
-third person who has some of the same answers is enough to make them common. Where two are nearly equal in many
-exercises, a single third one is therefore left out of the exercises that all three share when these two are compared.
+one student: in how many of the class have something, and in the pairs that a pair is ranked among.
 """
 
 from __future__ import annotations
@@ -27,6 +28,9 @@ from .fingerprints import MOST_TIMES, Feature, Fingerprint
 VIEWS = ("structure", "flow")
 SPREAD = 0.02  # of likeness, that any answer is expected to have
 THRESHOLD = 2.0  # of a pair's score, from which it is reported
+NEAR = 1.3  # from which it is worth a look: one in twenty
+CLEAR = 0.02  # chance at most of a pair's likeness in an exercise that stands out
+REST = 1.3  # of a patchwork's score, without its strongest source
 FEWEST = 3  # exercises that both answered, below which a pair is not reported
 NEARLY_EQUAL = 0.8  # from which structure or flow of two answers are nearly equal
 MOST_BY_CHANCE = 4  # exercises in which two honest students may be nearly equal
@@ -40,19 +44,38 @@ class Likeness:
     Attributes
     ----------
     structure, flow : float
-        The share of what they have in common, from 0 to 1, weighted by how rare it is in the class.
-    chances : tuple of float
-        The share of the class's pairs that stand out as much, in each of the two. A ring counts as one student.
+        The share of what they have in common, from 0 to 1, weighted by how rare it is.
+    chance : float
+        The share of all pairs that stand out as much. A ring counts as one student.
     """
 
     structure: float
     flow: float
-    chances: tuple[float, float]
+    chance: float
 
     @property
     def nearly_equal(self) -> bool:
         """Whether the answers differ in little that counts."""
         return max(self.structure, self.flow) >= NEARLY_EQUAL
+
+
+@dataclass(frozen=True)
+class Patchwork:
+    """A student whose answers are like those of several others, each like the answer of another one.
+
+    Attributes
+    ----------
+    student : str
+        The name.
+    score : float
+        How unlikely it is by chance that in each exercise somebody's answer is so much alike, as for a pair.
+    sources : dict of str to tuple of str
+        The exercises in which a pair stands out, by the name of the student whose answer is most alike.
+    """
+
+    student: str
+    score: float
+    sources: Mapping[str, tuple[str, ...]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +102,11 @@ class Pair:
         """Whether the pair is to be looked at."""
         return self.score >= THRESHOLD and len(self.exercises) >= FEWEST
 
+    @property
+    def near(self) -> bool:
+        """Whether the pair is not reported, but nearly."""
+        return NEAR <= self.score < THRESHOLD and len(self.exercises) >= FEWEST
+
 
 def pairs(
     answers: Mapping[str, Mapping[str, Fingerprint]],
@@ -91,7 +119,8 @@ def pairs(
     answers : dict of str to dict
         The fingerprints of each student's answers by exercise.
     known : dict of str to sequence of Fingerprint, optional
-        Other answers by exercise, such as the stub and solutions: what they have weighs less.
+        Other answers by exercise, such as the stub, solutions, and answers of honest students elsewhere. They are
+        compared as answers of the class are: what they have weighs less, and their pairs are ranked too.
 
     Returns
     -------
@@ -110,16 +139,76 @@ def pairs(
     rings = _rings(found)
     if rings:
         found = _compared(answers, known or {}, rings)
-    found |= {
-        names: _without_a_third(names, found, answers, known or {})
-        for names, likenesses in found.items()
-        if _linked(likenesses) and rings.keys().isdisjoint(names)
-    }
     scored = [
-        Pair(first, second, _score(list(likenesses.values())), likenesses)
+        Pair(
+            first,
+            second,
+            _combined([one.chance for one in likenesses.values()]),
+            likenesses,
+        )
         for (first, second), likenesses in found.items()
     ]
     return sorted(scored, key=lambda pair: (-pair.score, pair.first, pair.second))
+
+
+def patchworks(pairs: Sequence[Pair]) -> list[Patchwork]:
+    """Return the students whose answers are like those of several others.
+
+    For each of a student's answers, the one in the class is found that is most alike. That the most alike of many
+    stands out is likelier than that a certain one does, which is taken into account. The chances of all exercises are
+    combined as those of a pair. One source alone makes a pair and no patchwork, so what is left without the strongest
+    source must stand out too.
+
+    Parameters
+    ----------
+    pairs : sequence of Pair
+        All pairs of a class, from :func:`pairs`.
+
+    Returns
+    -------
+    list of Patchwork
+        Those that stand out, the most outstanding first.
+
+    Examples
+    --------
+    >>> patchworks([Pair("ada", "bo", 3.0, {"2.1": Likeness(1, 1, 0.001)})])
+    []
+    """
+    likenesses: dict[str, dict[str, list[tuple[float, str]]]] = {}
+    for pair in pairs:
+        for name, other in ((pair.first, pair.second), (pair.second, pair.first)):
+            for id, likeness in pair.exercises.items():
+                found = likenesses.setdefault(name, {}).setdefault(id, [])
+                found.append((likeness.chance, other))
+    every = [_patchwork(name, found) for name, found in likenesses.items()]
+    return sorted(
+        (one for one in every if one is not None),
+        key=lambda one: (-one.score, one.student),
+    )
+
+
+def _patchwork(
+    name: str, found: Mapping[str, Sequence[tuple[float, str]]]
+) -> Patchwork | None:
+    """Return the patchwork of a student, or nothing if the answers do not stand out or have a single source."""
+    nearest = {id: min(others) for id, others in found.items()}
+    # the chance that the most alike of so many answers stands out so much
+    chances = {
+        id: 1 - (1 - chance) ** len(found[id]) for id, (chance, _) in nearest.items()
+    }
+    score = _combined(list(chances.values()))
+    sources: dict[str, list[str]] = {}
+    for id, (chance, other) in nearest.items():
+        if chance <= CLEAR:
+            sources.setdefault(other, []).append(id)
+    if score < THRESHOLD or len(found) < FEWEST or len(sources) < 2:
+        return None
+    strongest = min(sources, key=lambda other: math.prod(chances[id] for id in sources[other]))  # fmt: skip
+    rest = [chances[id] for id in found if id not in sources[strongest]]
+    if _combined(rest) < REST:
+        return None
+    ordered = sorted(sources.items(), key=lambda item: (-len(item[1]), item[0]))
+    return Patchwork(name, score, {other: tuple(ids) for other, ids in ordered})
 
 
 def _compared(
@@ -160,49 +249,10 @@ def _linked(likenesses: Mapping[str, Likeness]) -> bool:
     return equal > MOST_BY_CHANCE and 2 * equal >= len(likenesses)
 
 
-def _without_a_third(
-    names: tuple[str, str],
-    found: Mapping[tuple[str, str], Mapping[str, Likeness]],
-    answers: Mapping[str, Mapping[str, Fingerprint]],
-    known: Mapping[str, Sequence[Fingerprint]],
-) -> dict[str, Likeness]:
-    """Return how alike two are in each exercise, without the one other student whose answer is nearly equal too.
-
-    If several others have such an answer, it is common, and none of them is left out.
-    """
-    alike = dict(found[names])
-    for id, likeness in found[names].items():
-        same = {
-            name
-            for pair, others in found.items()
-            if not set(names).isdisjoint(pair) and id in others
-            if others[id].nearly_equal
-            for name in pair
-        } - set(names)
-        if likeness.nearly_equal and len(same) == 1:
-            own = {
-                name: prints[id]
-                for name, prints in answers.items()
-                if id in prints and name not in same
-            }
-            alike[id] = dict(_likenesses(own, known.get(id, ()), {}))[names]
-    return alike
-
-
-def _score(likenesses: Sequence[Likeness]) -> float:
-    """Return minus the logarithm of the chance of so much likeness, in structure, in flow, or in both together.
-
-    The least of the three chances counts three times, because there are three.
-    """
-    by_view = [*zip(*(one.chances for one in likenesses), strict=True)]
-    both = [
-        _fisher(-math.log(a) - math.log(b), 2) for a, b in zip(*by_view, strict=True)
-    ]
-    chances = [
-        _fisher(-math.fsum(map(math.log, found)), len(found))
-        for found in (*by_view, both)
-    ]
-    return -math.log10(min(1.0, len(chances) * min(chances)))
+def _combined(chances: Sequence[float]) -> float:
+    """Return minus the logarithm of the chance of so small chances in all exercises together."""
+    evidence = -math.fsum(math.log(chance) for chance in chances)
+    return -math.log10(_fisher(evidence, len(chances)))
 
 
 def _fisher(evidence: float, number: int) -> float:
@@ -229,17 +279,19 @@ def _likenesses(
     # A pair is ranked among the pairs of different groups, and itself.
     ranked = leads[first] & leads[second]
     number = ranked.sum() + ~ranked
-    alike, chances = [], []
-    for view in VIEWS:
-        table = _shared([getattr(one, view) for one in everything], groups)
-        outstanding = _outstanding(table, groups, leads)[first, second]
-        below = np.searchsorted(np.sort(outstanding[ranked]), outstanding - 1e-9)
-        alike.append(table[first, second].tolist())
-        chances.append((1 - below / number).tolist())
+    tables = [
+        _shared([getattr(one, view) for one in everything], groups) for view in VIEWS
+    ]
+    # Of the two views, the one counts in which a pair stands out more.
+    outstanding = np.max(
+        [_outstanding(table, groups, leads) for table in tables], axis=0
+    )[first, second]
+    below = np.searchsorted(np.sort(outstanding[ranked]), outstanding - 1e-9)
+    chances = (1 - below / number).tolist()
+    alike = [table[first, second].tolist() for table in tables]
     for k, (a, b) in enumerate(zip(first.tolist(), second.tolist(), strict=True)):
         if b < len(names):
-            both = (chances[0][k], chances[1][k])
-            yield (names[a], names[b]), Likeness(alike[0][k], alike[1][k], both)
+            yield (names[a], names[b]), Likeness(alike[0][k], alike[1][k], chances[k])
 
 
 def _outstanding(
