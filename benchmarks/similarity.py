@@ -2,25 +2,23 @@
 
 Run by hand: ``python benchmarks/similarity.py`` writes ``benchmarks/similarity.json``.
 
-``tests/unit/grading/similar`` holds twelve honest answers to each of ten exercises, all different and all right, and
-translations of six of them between loops and arrays. A class has twelve students, each with one of the twelve answers
-to every exercise, drawn so that no two students share one: six who like arrays and six who like loops, in all
-exercises, which makes honest students more alike than chance would. Then two of them throw their answers away, copy
-those of another and disguise them, all of them or half. Each class is drawn independently. Every pair but that of a
-copy and its original is honest. The method is developed without the exercises in HELD_OUT, which tell how well it does
-on others. In other classes a ring of three to nine students hand in the same answers to all ten exercises.
+``solutions/honest`` holds thirty honest answers to each of ten exercises, all different and all right, and
+``tests/unit/grading/similar`` translations of six of them between loops and arrays. The students of a class each have
+one of the thirty answers to every exercise, drawn so that no two share one. Half of them like arrays and half like
+loops, in all exercises, which makes honest students more alike than chance would. The answers that nobody in the class
+has are the honest answers that come with the course; a class of thirty has all of them, and nothing comes with it.
 
-Classes of other sizes are drawn in the same way. In a class of thirty, two or three honest students have each of the
-twelve answers to an exercise, so that honest pairs are more alike than in smaller ones. In further classes half of ten
-exercises are copied, and a third person has three of the same answers; the pairs of the third person with the other two
-count neither as copies nor as honest.
+Then one student, or two in a class of five or more, throws answers away, copies those of another and disguises them:
+all, half of them, or each from one of several sources. In other classes a third person has some of the same answers
+(these pairs count neither as copies nor as honest), or a ring of three to nine students hands in the same answers to
+all ten exercises. Each class is drawn independently, and its number is its seed. Every pair but that of a copy and its
+original is honest. The method is developed without the exercises in HELD_OUT, which tell how well it does on others.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
-import dataclasses
 import json
 import random
 from collections import Counter, defaultdict
@@ -50,6 +48,7 @@ EXERCISES = {
 HELD_OUT = ("2.7", "3.1", "3.2", "3.5")
 RINGS = (3, 4, 6, 9)
 SIZES = (3, 5, 6, 8, 12, 30)
+WAYS = 4  # of each disguise of an answer
 THIRD = "third"  # a pair of a third person with one of two who copied
 DISGUISES = ("recommented", "renamed", "reordered", "translated")
 Functions = dict[str, dict[int, ast.Module]]
@@ -180,22 +179,19 @@ def known() -> dict[str, list[Fingerprint]]:
     return found
 
 
-@dataclasses.dataclass
 class Drawn:
     """A class of students with their answers, of whom some copied.
 
-    Attributes
+    Parameters
     ----------
     order : dict of str to list of int
         The number of each student's honest answer, by exercise.
-    stolen : dict
-        By thief and exercise: from whom an answer is copied, and the disguise.
     """
 
-    order: dict[str, list[int]]
-    stolen: dict[tuple[int, str], tuple[int, str]] = dataclasses.field(
-        default_factory=dict
-    )
+    def __init__(self, order: dict[str, list[int]]) -> None:
+        self.order = order
+        # By thief and exercise: from whom an answer is copied, and the disguise.
+        self.stolen: dict[tuple[int, str], tuple[int, str]] = {}
 
     def steal(self, thief: int, victim: int, ids: Sequence[str], how: str, rng: random.Random) -> None:  # fmt: skip
         """Let somebody copy answers. An answer that has a translation changes places with the victim's."""
@@ -217,10 +213,7 @@ class Drawn:
                 one = _print(id, k)
                 if (n, id) in self.stolen:
                     victim, how = self.stolen[n, id]
-                    source = TRANSLATIONS if how == "translated" else HONEST
-                    one = _print(id, order[victim])
-                    if how:
-                        one = disguised(source[id][order[victim]], how, rng)
+                    one = _copy(id, order[victim], how, rng.randrange(WAYS))
                 found.setdefault(named(n), {})[id] = one
         return found
 
@@ -254,6 +247,15 @@ def _print(id: str, number: int) -> Fingerprint:
 
 
 @cache
+def _copy(id: str, number: int, how: str, way: int) -> Fingerprint:
+    """Return a copy of an answer in one of several ways of a disguise, or the answer itself without a disguise."""
+    if not how:
+        return _print(id, number)
+    source = TRANSLATIONS if how == "translated" else HONEST
+    return disguised(source[id][number], how, random.Random(f"{id} {number} {way}"))
+
+
+@cache
 def _solutions() -> dict[str, list[Fingerprint]]:
     return known()
 
@@ -276,7 +278,7 @@ def classes(
     for seed in range(number):
         rng = random.Random(seed)
         ids = rng.sample(sorted(pool or EXERCISES), exercises)
-        drawn = Drawn({id: _by_taste(HONEST[id], rng, size) for id in ids})
+        drawn = Drawn({id: _by_taste(id, rng, size) for id in ids})
         people = rng.sample(range(size), size)
         taken = ids[: copied or exercises]
         for k in range(sources):
@@ -298,7 +300,7 @@ def ringed(
     """Yield the compared pairs of random classes, and the ring in it. Without disguises its answers are equal."""
     for seed in range(number):
         rng = random.Random(seed)
-        drawn = Drawn({id: _by_taste(HONEST[id], rng, 12) for id in EXERCISES})
+        drawn = Drawn({id: _by_taste(id, rng, 12) for id in EXERCISES})
         ring = rng.sample(range(12), size)
         for thief in ring[1:]:
             how = rng.choice(disguises) if disguises else ""
@@ -306,33 +308,25 @@ def ringed(
         yield pairs(drawn.answers(rng), drawn.known()), {named(n) for n in ring}
 
 
-def _by_taste(
-    found: dict[int, ast.Module], rng: random.Random, size: int = 12
-) -> list[int]:
-    """Return which answer each of ``size`` students has: those with fewer loops first, and in each half at random.
+def _by_taste(id: str, rng: random.Random, size: int) -> list[int]:
+    """Return which answer each of ``size`` students has: those with fewer loops first, and in each half at random."""
+    loops = _loops(id)
+    by_loops = sorted(loops, key=lambda number: (loops[number], rng.random()))
+    half = len(by_loops) // 2
+    first = rng.sample(by_loops[:half], size // 2)
+    return first + rng.sample(by_loops[half:], size - size // 2)
 
-    A class that is larger than the number of answers draws them again.
-    """
-    loops = {
+
+@cache
+def _loops(id: str) -> dict[int, int]:
+    """Return the number of loops in each honest answer."""
+    return {
         number: sum(
             isinstance(node, ast.For | ast.While | ast.comprehension)
             for node in ast.walk(tree)
         )
-        for number, tree in found.items()
+        for number, tree in HONEST[id].items()
     }
-    by_loops = sorted(found, key=lambda number: (loops[number], rng.random()))
-    half = len(by_loops) // 2
-    return _drawn(by_loops[:half], size // 2, rng) + _drawn(
-        by_loops[half:], size - size // 2, rng
-    )
-
-
-def _drawn(numbers: Sequence[int], many: int, rng: random.Random) -> list[int]:
-    """Return this many of the numbers in random order, each as often as any other."""
-    drawn = list[int]()
-    while len(drawn) < many:
-        drawn += rng.sample(numbers, len(numbers))
-    return drawn[:many]
 
 
 def measured(

@@ -14,6 +14,7 @@ import tempfile
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
@@ -131,7 +132,8 @@ def compare_class(course: Course, folder: Path) -> Comparison:
     finally:
         reader.close()
     prints = {n: {id: one.print for id, one in own.items()} for n, own in found.items()}
-    every = pairs(prints, _known(course))
+    answered = {id for own in prints.values() for id in own}
+    every = pairs(prints, {id: _known(course, id) for id in answered})
     return Comparison(
         found,
         pairs=[pair for pair in every if pair.reported],
@@ -143,18 +145,14 @@ def compare_class(course: Course, folder: Path) -> Comparison:
     )
 
 
-def _known(course: Course) -> dict[str, list[Fingerprint]]:
-    """Return what everybody may share: the stub, the solutions and the honest answers to each exercise."""
-    known = dict[str, list[Fingerprint]]()
-    for id, exercise in course.exercises.items():
-        for place in (course.stubs, course.solutions, course.solutions / "otherwise"):
-            if (path := place / exercise.file).is_file():
-                tree = ast.parse(path.read_bytes())
-                known.setdefault(id, []).append(fingerprint(tree, exercise.name))
-    books = _book(course)
-    for id in known.keys() & books.exercises.keys():
-        known[id] += honest_answers(books, id)
-    return known
+def _known(course: Course, id: str) -> list[Fingerprint]:
+    """Return what everybody may share: the stub, the solutions and the honest answers to an exercise."""
+    exercise, known = course.exercises[id], list[Fingerprint]()
+    for place in (course.stubs, course.solutions, course.solutions / "otherwise"):
+        if (path := place / exercise.file).is_file():
+            known.append(fingerprint(ast.parse(path.read_bytes()), exercise.name))
+    book = _book(course)
+    return [*known, *honest_answers(book, id)] if id in book.exercises else known
 
 
 def _book(course: Course) -> Course:
@@ -174,16 +172,21 @@ def honest_answers(course: Course, id: str) -> list[Fingerprint]:
     >>> len(honest_answers(Course.around(), "2.4"))
     30
     """
-    path = course.solutions / HONEST / course.exercises[id].file
+    return list(_honest(course.solutions / HONEST / course.exercises[id].file))
+
+
+@cache
+def _honest(path: Path) -> tuple[Fingerprint, ...]:
+    """Return the fingerprints of the functions in a file of honest answers, each apart."""
     if not path.is_file():
-        return []
+        return ()
     tree = ast.parse(path.read_bytes())
     imports = [n for n in tree.body if isinstance(n, ast.Import | ast.ImportFrom)]
-    return [
+    return tuple(
         fingerprint(ast.Module([*imports, node], []), node.name)
         for node in tree.body
         if isinstance(node, ast.FunctionDef)
-    ]
+    )
 
 
 class _Reader:
