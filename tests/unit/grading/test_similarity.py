@@ -350,7 +350,10 @@ BOTH_FORMS = {
 }
 
 
-@pytest.mark.parametrize(("loop", "array"), [("in repeated lists", "as an array"), ("in lists", "in a list")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("loop", "array"),
+    [("in repeated lists", "as an array"), ("in lists", "in a list")],
+)
 def test_loops_and_arrays_have_the_same_flow(loop, array):
     flows = [one(f"def f(a, b):\n    {BOTH_FORMS[form]}").flow for form in (loop, array)]  # fmt: skip
     assert flows[0] == flows[1]
