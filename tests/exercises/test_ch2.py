@@ -631,3 +631,64 @@ def test_learner_that_slips(answer, rng):
 def test_learner_that_is_lured(answer, rng):
     """Reaches 60 % in worlds with a small reward near the start and a large one far away."""
     learned(answer, rng, 6, 0.1, True, 60)
+
+
+def facing(rng, size):
+    """A pose on the map, away from its border."""
+    place = rng.uniform(0.3 * size, 0.7 * size, size=2)
+    return np.array([*place, rng.uniform(-np.pi, np.pi)])
+
+
+def towards(pose, degrees, metres):
+    """Places in some directions from the heading and at some distances."""
+    angles = pose[2] + np.radians(degrees)
+    steps = np.column_stack([np.cos(angles), np.sin(angles)])
+    return pose[:2] + np.reshape(metres, (-1, 1)) * steps
+
+
+@pytest.mark.part("2.11", points=1)
+def test_rays_to_the_middle_of_a_circle(answer, rng):
+    """Reads a circle whose centre lies on a ray."""
+    for ray in range(9):
+        pose, away = facing(rng, 100.0), rng.uniform(4, 8, size=1)
+        centres = towards(pose, np.array([40.0 * ray]), away)
+        answer.agrees(pose, centres, rng.uniform(1, 2, size=1), 100.0, 10.0)
+
+
+@pytest.mark.part("2.11", points=1)
+def test_rays_beside_the_middle_of_a_circle(answer, rng):
+    """Reads circles that rays meet beside their centres, and none that lie between two rays."""
+    for _ in range(6):
+        pose, away = facing(rng, 100.0), rng.uniform(5, 8, size=9)
+        aside = 40.0 * np.arange(9) + rng.uniform(-9, 9, size=9)
+        centres = towards(pose, aside, away)
+        answer.agrees(pose, centres, rng.uniform(0.3, 1.6, size=9), 100.0, 10.0)
+
+
+@pytest.mark.part("2.11", points=1)
+def test_rays_away_from_a_circle(answer, rng):
+    """Reads nothing of circles that lie behind, and gives ``reach`` where nothing is near."""
+    for _ in range(4):
+        pose = facing(rng, 100.0)
+        ray = rng.integers(9, size=1)
+        centres = towards(pose, 40.0 * ray + 180, np.array([5.0]))
+        answer.agrees(pose, centres, np.array([0.8]), 100.0, 10.0)
+
+
+@pytest.mark.part("2.11", points=1)
+def test_rays_to_the_border(answer, rng):
+    """Reads the border of the map, where no circle is."""
+    nothing = np.zeros((0, 2)), np.zeros(0)
+    for _ in range(6):
+        answer.agrees(facing(rng, 20.0), *nothing, 20.0, 30.0)
+
+
+@pytest.mark.part("2.11", points=1)
+def test_rays_among_many_things(answer, rng):
+    """Reads the nearest of many circles and borders."""
+    for _ in range(4):
+        pose = facing(rng, 30.0)
+        centres = rng.uniform(0, 30, size=(14, 2))
+        away = np.hypot(*(centres - pose[:2]).T)
+        radii = np.minimum(rng.uniform(1, 3, size=14), 0.6 * away)
+        answer.agrees(pose, centres, radii, 30.0, 12.0)
