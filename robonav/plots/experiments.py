@@ -38,6 +38,8 @@ def case_labels(results: Results) -> list[str]:
 def setting_label(key: str, value: str | float) -> str:
     """Return the label of a setting: a text without its key, a number with it, and a method with its display name.
 
+    Obstacles are counted, as in "20 obstacles", and no caution is called so.
+
     Parameters
     ----------
     key : str
@@ -52,11 +54,13 @@ def setting_label(key: str, value: str | float) -> str:
     Examples
     --------
     >>> setting_label("obstacles", 20), setting_label("expert", "human")
-    ('obstacles 20', 'human')
+    ('20 obstacles', 'human')
     """
     if isinstance(value, str):
         return display_name(value) if key == "method" else value
-    return f"{key} {value}"
+    if key == "obstacles":
+        return f"{value} {key}"
+    return "no caution" if (key, value) == ("caution", 0) else f"{key} {value}"
 
 
 def draw_bars(results: Results, metric: str, label: str) -> Figure:

@@ -295,7 +295,8 @@ def plot_demonstrations(results: Results) -> Figure:
     """Plot success against the number of demonstrations, with the thesis's numbers (Table 3.2)."""
     figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 4))
     draw_against(axes, results, "demonstrations", "success", thesis=True)
-    axes.set(ylabel=SUCCESS)
+    numbers = {case["demonstrations"] for case in results.experiment.cases}
+    axes.set(ylabel=SUCCESS, xticks=sorted(numbers))
     return figure
 
 
@@ -392,7 +393,8 @@ def plot_margins(results: Results) -> Figure:
     """Plot success against the margin that the expert keeps, with 95 % intervals over runs."""
     figure, axes = plt.subplots(figsize=(style.FIGURE_WIDTH, 4))
     draw_against(axes, results, "margin", "success")
-    axes.set(xlabel="margin of the expert (m)", ylabel=SUCCESS)
+    margins = {case["margin"] for case in results.experiment.cases}
+    axes.set(xlabel="margin of the expert (m)", ylabel=SUCCESS, xticks=sorted(margins))
     return figure
 
 

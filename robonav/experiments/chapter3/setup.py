@@ -147,6 +147,7 @@ def dagger_result(
     *,
     target: str = "sine-cosine",
     rounds: int = ROUNDS,
+    max_steps: int = SETUP.max_steps,
     reflex: Reflex = SETUP.reflex,
 ) -> DaggerResult:
     """Run DAgger from a run's demonstrations. Each round has as many new maps as there are demonstrations."""
@@ -160,5 +161,6 @@ def dagger_result(
         # the committed results have one seed for all
         seed=np.full((rounds + 1, 2), seed),
         encoder=Encoder(target=target),
+        max_steps=max_steps,
         reflex=reflex,
     )

@@ -21,7 +21,7 @@ from robonav.lfd import (
     summarise_dataset,
 )
 from robonav.lfd.dagger import TEMPERATURE
-from robonav.networks import network_accuracy
+from robonav.networks import cross_entropy_cost, network_accuracy
 from robonav.robot import Policy, Worlds, navigate, neighbour_slip, random_worlds
 from robonav.robot.encoding import TARGET_ENCODINGS
 
@@ -240,6 +240,34 @@ def with_equal_data(case: Case, seed: int, scale: str) -> Numbers:
     return rates | {"examples": len(learned_from.effective)}
 
 
+def with_decay(case: Case, seed: int, scale: str) -> Numbers:
+    """Weight decay: cost and accuracy on other demonstrations, and success in new maps."""
+    policy = learn_policy(
+        demonstrations(seed), regularisation=float(case["regularisation"]), seed=seed
+    )
+    x, y = labelled_states(demonstrations(seed + OTHERS))
+    return SETUP.evaluate(policy, SETUP.test_worlds(seed, scale)) | {
+        "cost, other demonstrations": cross_entropy_cost(policy.network, x, y),
+        "accuracy, other demonstrations": 100 * network_accuracy(policy.network, x, y),
+    }
+
+
+def with_short_rounds(case: Case, seed: int, scale: str) -> Numbers:
+    """DAgger whose rollouts end early: the last policy, and the one that does best in maps kept for validation."""
+    obstacles = int(case["obstacles"])
+    limit = int(case["steps in a rollout"])
+    policies = dagger_result(seed, obstacles, max_steps=limit).policies
+    kept = SETUP.worlds(
+        CONDITIONS["validation_maps"], SETUP.tuning_seed + seed, obstacles
+    )
+    validated = [SETUP.evaluate(policy, kept)["success"] for policy in policies]
+    worlds = SETUP.test_worlds(seed, scale, obstacles)
+    chosen = SETUP.evaluate(policies[int(np.argmax(validated))], worlds)
+    return SETUP.evaluate(policies[-1], worlds) | {
+        "success, chosen round": chosen["success"]
+    }
+
+
 TABLE_3_2 = Experiment(
     name="table-3.2",
     title="Success in new maps against number of demonstrations",
@@ -431,8 +459,26 @@ EQUAL_DATA = Experiment(
     settings=ABOUT,
     plot=SUCCESS_BARS,
 )
+REGULARISATION = Experiment(
+    name="lfd-regularisation",
+    title="Cost and accuracy on other demonstrations, and success in new maps, by weight decay",
+    cases=[{"regularisation": decay} for decay in (1.0, 0.1, 0.01)],
+    run=with_decay,
+    seeds=SEEDS,
+    settings=ABOUT,
+    plot=SUCCESS_BARS,
+)
+SHORT_ROUNDS = Experiment(
+    name="lfd-dagger-rounds",
+    title="Success in new maps after three rounds of DAgger, and with the round chosen by validation",
+    cases=[{"obstacles": 30, "steps in a rollout": steps} for steps in (500, 120)],
+    run=with_short_rounds,
+    seeds=SEEDS | {"thesis": 8},
+    settings=ABOUT | {"maps for validation": CONDITIONS["validation_maps"]},
+    plot=SUCCESS_BARS,
+)
 
 EXPERIMENTS = (
     TABLE_3_2, TABLE_3_3, FIGURE_3_5, FIGURE_3_6, FIGURE_3_7, FIGURE_3_8, FIGURE_3_9, FIGURE_3_10, ENCODINGS, MARGINS,
-    EQUAL_DATA,
+    EQUAL_DATA, REGULARISATION, SHORT_ROUNDS,
 )  # fmt: skip

@@ -95,6 +95,39 @@ def test_dagger_is_ahead_with_equally_much_data():
         assert gain > 0.4 if obstacles < 30 else gain < 0.1
 
 
+def test_the_least_decay_arrives_least_often_and_a_tenth_is_as_good_as_one():
+    one, tenth, hundredth = (
+        {
+            metric: values(tables.REGULARISATION, metric, regularisation=decay).mean()
+            for metric in (
+                "success",
+                "cost, other demonstrations",
+                "accuracy, other demonstrations",
+            )
+        }
+        for decay in (1.0, 0.1, 0.01)
+    )
+    assert hundredth["success"] < min(one["success"], tenth["success"])
+    assert tenth["success"] > one["success"]
+    assert tenth["cost, other demonstrations"] < one["cost, other demonstrations"]
+    assert (
+        tenth["accuracy, other demonstrations"] > one["accuracy, other demonstrations"]
+    )
+    results = read_results(tables.REGULARISATION)
+    assert results.summary("success", 1).low < results.summary("success", 0).high
+
+
+def test_shorter_rollouts_repair_a_part_and_the_chosen_round_more():
+    last, chosen = (
+        [
+            values(tables.SHORT_ROUNDS, metric, **{"steps in a rollout": steps}).mean()
+            for steps in (500, 120)
+        ]
+        for metric in ("success", "success, chosen round")
+    )
+    assert last[0] + 3 < last[1] < min(chosen) - 2
+
+
 def test_lengths_of_the_two_planners():
     for y, bounds in ((90, (0, 1)), (40, (5, 6))):
         modified, grid = (
