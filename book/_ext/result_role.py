@@ -11,7 +11,7 @@ such as 98.5. The parts are separated by semicolons, and their order after the f
 - a format, such as ``.0f``.
 
 ``{benchmark}`300 iterations: * ms``` becomes the number at the place of the (last) star in the output of the benchmarks
-(``book/benchmarks.md``).
+(``book/benchmarks.md``). A format may follow, as in ``{benchmark}`300 iterations: * ms; .0f```.
 
 The numbers are put into the source before it is parsed. They therefore work in tables and captions as well. They do not
 stand in code cells: a notebook is executed before its numbers are put in, and would be executed once more after that.
@@ -136,6 +136,7 @@ def benchmark(text: str) -> str:
     ValueError
         If no line has the text, or more than one.
     """
+    text, _, form = text.partition(";")
     before, star, after = text.rpartition("*")
     places = re.findall(
         rf"{re.escape(before)}\s*({NUMBER.pattern}){re.escape(after)}",
@@ -145,7 +146,8 @@ def benchmark(text: str) -> str:
         raise ValueError(
             f"one line of the benchmarks must have the text {text!r} with a star for the number, got {len(places)}"
         )
-    return str(places[0])
+    found = str(places[0])
+    return format(float(found.replace(",", "")), form.strip()) if form else found
 
 
 def put_in(app: Sphinx, page: str, source: list[str]) -> None:

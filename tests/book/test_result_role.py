@@ -65,6 +65,7 @@ def test_a_wrong_name_is_one_sentence(text: str, complaint: str) -> None:
 
 def test_a_benchmark_is_read_from_its_line() -> None:
     milliseconds = benchmark("300 iterations: * ms (at most 500 ms)")
+    assert benchmark("300 iterations: * ms; .0f") == f"{float(milliseconds):.0f}"
     page = (ROOT / "book/benchmarks.md").read_text("utf-8")
     assert f"300 iterations: {milliseconds} ms" in page
     for text in ("300 iterations: 195 ms", "no such line: * ms"):
