@@ -23,6 +23,11 @@ STAGES: Mapping[str, tuple[Mapping[str, int], Mapping[str, Any]]] = {
 }
 """The worlds of each stage, and its settings. A stage goes on with the networks of the stage before."""
 
+CONTROLS: Mapping[str, tuple[str, Mapping[str, int]]] = {
+    "as long, in ten obstacles": ("1. ten obstacles", {"obstacles": 10}),
+}
+"""What goes on with the networks of which stage, and in which worlds. The settings are those of stage 2."""
+
 HIDDEN = (64,)
 SEEDS = {"quick": 1, "thesis": 10}
 SEEDS_APART = 1000  # between two stages, so that a robot meets other worlds in each
@@ -54,9 +59,25 @@ def trained(stage: str, seeds: tuple[int, ...], scale: str) -> PPOResult:
     )  # fmt: skip
 
 
+@cache
+def control(name: str, seeds: tuple[int, ...], scale: str) -> PPOResult:
+    """Train some seeds at once as a control, which changes less than a stage does."""
+    before, worlds = CONTROLS[name]
+    settings = CONDITIONS["curriculum-2"]
+    updates = settings["updates"][scale]
+    number = list(STAGES).index(before) + 1
+    return train_ppo(
+        [seed + SEEDS_APART * number for seed in seeds],
+        task=task(worlds), hidden=HIDDEN, start=trained(before, seeds, scale),
+        **{**settings, "updates": updates},
+    )  # fmt: skip
+
+
 def run(case: Case, seed: int, scale: str) -> Numbers:
-    """Test one seed after one stage in new worlds."""
-    result = trained(str(case["stage"]), tuple(range(SEEDS[scale])), scale)
+    """Test one seed after one stage, or after one control, in new worlds."""
+    train = trained if "stage" in case else control
+    name = case["stage"] if "stage" in case else case["control"]
+    result = train(str(name), tuple(range(SEEDS[scale])), scale)
     worlds = SETUP.test_worlds(seed, scale, **SETTINGS[str(case["setting"])])
     return SETUP.evaluate(result.policies[seed], worlds)
 
@@ -82,6 +103,30 @@ EXPERIMENTS = (
         },
         shortened="A quick run has two updates in each stage.",
         note="A stage goes on with the networks of the stage before. Nine sensors, no map, 2 m/s.",
+        plot=SUCCESS_BARS,
+    ),
+    Experiment(
+        name="ppo-curriculum-control",
+        title="Success of PPO that trains as long as in stage 2, and in ten obstacles",
+        cases=[
+            {"control": name, "setting": setting}
+            for name in CONTROLS
+            for setting in SETTINGS
+        ],
+        run=run,
+        seeds=SEEDS,
+        settings={
+            "navigations a run": SETUP.navigations,
+            "hidden units": list(HIDDEN),
+            "controls": {
+                name: {"after": before, "worlds": dict(worlds)}
+                for name, (before, worlds) in CONTROLS.items()
+            },
+            "stage 1": dict(CONDITIONS["curriculum-1"]),
+            "stage 2": dict(CONDITIONS["curriculum-2"]),
+        },
+        shortened="A quick run has two updates in each stage.",
+        note="The control makes as many steps as stage 2 with the same settings, and leaves out its hard worlds.",
         plot=SUCCESS_BARS,
     ),
 )

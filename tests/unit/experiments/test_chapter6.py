@@ -206,6 +206,30 @@ def test_what_the_page_says_about_the_leaderboard():
         assert success["ppo", setting] < success["dagger", setting]
 
 
+def test_what_the_page_says_about_the_control_of_the_curriculum():
+    def after(name, setting):
+        if name == "control":
+            results = published("ppo-curriculum-control")
+            (control,) = curriculum.CONTROLS
+            case = {"control": control, "setting": setting}
+        else:
+            results = published("ppo-curriculum")
+            case = {"stage": list(curriculum.STAGES)[name - 1], "setting": setting}
+        return results.summary(
+            "success", list(results.experiment.cases).index(case)
+        ).mean
+
+    def share(setting):
+        gain = after(2, setting) - after(1, setting)
+        return (after("control", setting) - after(1, setting)) / gain
+
+    assert 0.4 < share("30 obstacles") < 0.6
+    assert share("10 and 10 moving") < 0.2
+    one, two = (settings for _, settings in list(curriculum.STAGES.values())[:2])
+    made = [s["updates"]["thesis"] * s["actors"] for s in (one, two)]
+    assert made[1] / made[0] == 25
+
+
 def test_what_the_page_says_about_the_front():
     """Cloning, DAgger and NIRL are not beaten with 20 obstacles in success and SPL."""
     board = published("leaderboard")
