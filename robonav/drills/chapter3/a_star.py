@@ -123,8 +123,8 @@ def admissible_or_consistent(rng: Rng) -> Question | None:
         f"${first + second:g}$ m are left at X and ${second:g}$ m at Y, so $H$ is "
         f"{'admissible' if admissible else 'not admissible, and then not consistent either'}. "
         + (
-            f"From X to Y it falls by ${x - y:g}$, and the step has ${first:g}$ m: it is "
-            f"{'consistent' if consistent else 'not consistent'}."
+            f"From X to Y it falls by ${x - y:g}$, and the step has ${first:g}$ m; from Y to the target by ${y:g}$, "
+            f"and the step has ${second:g}$ m: it is {'consistent' if consistent else 'not consistent'}."
             if admissible
             else ""
         ),

@@ -187,8 +187,8 @@ def order_of_training(rng: Rng) -> Question:
     asked = some_in_order(rng, lines, 5)
     return Question(
         f"A network has one input, one hidden unit, one output unit, the weights ${first:g}$ and ${second:g}$, and no "
-        f"biases. It is trained with the input ${x:g}$, the label ${label}$ and the step size ${step:g}$. Put these "
-        "lines of the run in order.",
+        f"biases. It is trained on the cross-entropy with the input ${x:g}$, the label ${label}$ and the step size "
+        f"${step:g}$. Put these lines of the run in order.",
         asked,
         "Activations go forward, errors come back, derivatives are products of both, and then the weights change. "
         f"{as_list(asked)}",
