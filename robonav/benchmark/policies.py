@@ -48,6 +48,7 @@ DISPLAY_NAMES: dict[str, str] = {
     "random-reward": "random reward",
     "ppo": "PPO",
     "gail": "GAIL",
+    "lfd-less-regularised": "cloning, less regularised",
     "potential-field": "potential field",
     "vfh": "VFH",
     "dynamic-window": "dynamic window",

@@ -66,7 +66,7 @@ def policy(case: Case, seed: int, scale: str) -> Policy:
     number = int(case["demonstrations"])
     if case["method"] == "straight":
         return straight
-    if case["method"] == "cloning, less regularised":
+    if case["method"] == "lfd-less-regularised":
         known = demonstrations_of_run(number, seed)
         return behaviour_cloning(known, regularisation=LESS, seed=seed)
     if case["method"] == "lfd":
@@ -86,7 +86,7 @@ CASES: list[Case] = [
         *(("gail", reward, 10) for reward in REWARDS),
         *(("gail", "-log D", number) for number in (1, 3)),
         *(("lfd", "no reward", number) for number in (1, 3, 10)),
-        *(("cloning, less regularised", "no reward", number) for number in (1, 3, 10)),
+        *(("lfd-less-regularised", "no reward", number) for number in (1, 3, 10)),
         ("straight", "no reward", 0),
     )
 ]

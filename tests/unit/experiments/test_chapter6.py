@@ -305,7 +305,7 @@ def test_what_the_page_says_about_gail():
     odds = results.values("success", 2)
     assert sorted(odds)[-2] < 20 < max(odds)  # nine of ten runs
     for number in (1, 3, 10):
-        less = mean["cloning, less regularised", "no reward", number]
+        less = mean["lfd-less-regularised", "no reward", number]
         assert mean["lfd", "no reward", number] < mean["gail", "-log D", number] < less
     steps = gail.TRAINING["updates"] * gail.TRAINING["actors"] * 128
     page = Path("book/adversarial-imitation.md").read_text("utf-8")
