@@ -111,7 +111,7 @@ SCHEMES: dict[str, Scheme] = {
                 style.GREEN,
             ),
             "memory": Box(
-                {"en": "pairs of\nthe episode", "fr": "paires de\nl'épisode"},
+                {"en": "pairs\nof the\nepisode", "fr": "paires de\nl'épisode"},
                 2,
                 1,
                 style.ORANGE,
