@@ -321,7 +321,7 @@ def test_the_chosen_bin_depends_on_the_cost(choice):
 )
 def test_an_open_task_says_how_episodes_ended_and_what_that_suggests(turn, end, hint):
     def escape(ranges, bearing, distance, memory):
-        return np.full(len(ranges), turn), memory
+        return np.full(len(ranges), turn), memory + 1  # it counts its steps
 
     result = feedback("6.6", escape)
     in_pockets = result["feedback"].split("✗")[2]
