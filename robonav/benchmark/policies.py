@@ -47,6 +47,7 @@ DISPLAY_NAMES: dict[str, str] = {
     "zero-reward": "zero reward",
     "random-reward": "random reward",
     "ppo": "PPO",
+    "ppo-curriculum": "PPO, in stages",
     "gail": "GAIL",
     "lfd-less-regularised": "cloning, less regularised",
     "potential-field": "potential field",

@@ -1,19 +1,19 @@
 """The networks of the package. ``python -m robonav.experiments.ship`` trains them again.
 
-The networks of chapter 3 are those of the first run of its tables. For each method of chapters 4 and 5 and for PPO,
-some seeds train under the conditions of Tables 4.3 and 5.2 and of the page on deep reinforcement learning, and the
-package has the policy with the greatest success in the worlds that are reserved for tuning.
+The networks of chapter 3 are those of the first run of its tables. For each method of chapters 4, 5 and 6,
+some seeds train under the conditions of Tables 4.3 and 5.2 and of the pages of chapter 6, and the package has the
+policy with the greatest success in the worlds that are reserved for tuning.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from robonav.deep import train_ppo
+from robonav.deep import GAILResult, PPOResult, train_gail, train_ppo
 from robonav.networks import NetworkPolicy, Weights, save_weights
 from robonav.nnql import METHODS
 from robonav.progress import bar
@@ -24,7 +24,7 @@ from .chapter4 import setup as chapter4
 from .chapter4 import tuning as tuning4
 from .chapter5 import setup as chapter5
 from .chapter5 import tuning as tuning5
-from .chapter6 import ppo as chapter6
+from .chapter6 import curriculum, gail, ppo
 from .runner.setup import Setup
 
 SEED = 0  # the seed of chapter 3's networks
@@ -141,12 +141,42 @@ def nirl_weights(
 
 def ppo_weights(seeds: Sequence[int] = SEEDS_6) -> Weights:
     """Return the best actor of some seeds of PPO, with the settings of its page."""
-    result = train_ppo(seeds, task=chapter6.task(), **chapter6.TRAINING)
+    result = train_ppo(seeds, task=ppo.task(), **ppo.TRAINING)
+    return best_actor("ppo", seeds, result, ppo.SETUP, result.settings)
+
+
+def curriculum_weights(seeds: Sequence[int] = SEEDS_6) -> Weights:
+    """Return the best actor of some seeds of PPO after the last of its stages."""
+    *_, last = curriculum.STAGES
+    result = curriculum.trained(last, tuple(seeds), "thesis")
+    stages = curriculum.EXPERIMENTS[0].settings["stages"]
+    return best_actor("ppo-curriculum", seeds, result, curriculum.SETUP, stages)
+
+
+def gail_weights(seeds: Sequence[int] = SEEDS_6) -> Weights:
+    """Return the best actor of some seeds of GAIL, each with ten demonstrations of its own."""
+    result = train_gail(
+        [gail.demonstrations_of_run(gail.MOST_DEMONSTRATIONS, seed) for seed in seeds],
+        seeds,
+        task=gail.task(),
+        reward=gail.REWARDS[gail.SHIPPED_REWARD],
+        **gail.TRAINING,
+    )
+    return best_actor("gail", seeds, result, gail.SETUP, result.settings)
+
+
+def best_actor(
+    method: str,
+    seeds: Sequence[int],
+    result: PPOResult | GAILResult,
+    setup: Setup,
+    settings: Mapping[str, Any],
+) -> Weights:
+    """Return the actor with the greatest success in the worlds that are reserved for tuning."""
     policies = {
-        seed: replace(policy, temperature=chapter6.TEMPERATURE)
+        seed: replace(policy, temperature=ppo.TEMPERATURE)
         for seed, policy in zip(seeds, result.policies, strict=True)
     }
-    setup = chapter6.SETUP
     worlds = setup.tuning_worlds(0, setup.navigations["thesis"])
     seed, policy, success = best_of(policies.__getitem__, seeds, setup, worlds)
     made = {
@@ -155,10 +185,10 @@ def ppo_weights(seeds: Sequence[int] = SEEDS_6) -> Weights:
         "seeds": list(seeds),
         "speed": setup.speed,
         "obstacles": setup.obstacles,
-        "settings": result.settings,
+        "settings": dict(settings),
         "success in tuning worlds (%)": success,
     }
-    return weights_of("ppo", policy, made)
+    return weights_of(method, policy, made)
 
 
 def best_of(
@@ -191,11 +221,13 @@ def all_weights() -> Iterator[tuple[str, str, Weights]]:
     for method in chapter5.LEARNERS:
         yield "nirl", method, nirl_weights(method)
     yield "deep", "ppo", ppo_weights()
+    yield "deep", "ppo-curriculum", curriculum_weights()
+    yield "deep", "gail", gail_weights()
 
 
 def ship() -> None:
     """Write a file for every network to the folder from which the package loads it."""
-    total = 2 + len(METHODS) + len(chapter5.LEARNERS) + 1
+    total = 2 + len(METHODS) + len(chapter5.LEARNERS) + 3
     with bar("networks that ship") as progress:
         for done, (chapter, name, weights) in enumerate(all_weights()):
             folder_of(chapter).mkdir(exist_ok=True)
