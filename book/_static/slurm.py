@@ -1,4 +1,6 @@
-"""Run the experiments on a SLURM cluster. Start this on its login node; needs "robonav[cluster]" and dask-jobqueue.
+"""Run the experiments on a SLURM cluster. Start this on its login node.
+
+It needs "robonav[cluster]" and dask-jobqueue.
 
 python slurm.py all
 """

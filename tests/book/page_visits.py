@@ -25,7 +25,7 @@ FLAT = """() => [...document.querySelectorAll(".widget-subarea > *")]
   .filter((widget) => widget.clientHeight <= 10).map((widget) => widget.outerHTML.slice(0, 160))"""
 BROKEN = """() => ({
   formulas: [...document.querySelectorAll("mjx-merror")].map((node) => node.textContent),
-  cut: [...document.querySelectorAll("div.math, div.math mjx-container")]
+  cut: [...document.querySelectorAll("div.math, div.math mjx-container, div.highlight:not(.cell_output *) pre")]
     .filter((place) => place.scrollWidth > place.clientWidth + 1).map((place) => place.textContent.slice(0, 60)),
   barred: [...document.querySelectorAll("span.math")].filter((place) => {
     const { overflowX, scrollbarWidth } = getComputedStyle(place);
