@@ -9,7 +9,7 @@ not seen, and the ray gives ``reach``. The map is a square from (0, 0) to (size,
 The robot is on the map and outside all circles.
 
 Where does a ray meet a circle? Its foot of the perpendicular from the centre of the
-circle lies $d = u \\cdot (c - p)$ metres along the ray, where $p$ is the place of the
+circle lies $d = u \cdot (c - p)$ metres along the ray, where $p$ is the place of the
 robot, $u$ the direction of the ray and $c$ the centre. If the foot lies ahead and is
 nearer to the centre than the radius, the ray enters the circle before the foot, as
 Pythagoras says.
