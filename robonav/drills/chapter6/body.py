@@ -43,7 +43,7 @@ def speed_of_a_wheel(rng: Rng) -> Question:
     )
 
 
-@drill("body", "Where does it believe to be?")
+@drill("body", "Where does it believe it is?")
 def error_of_odometry(rng: Rng) -> Question:
     """Compute how wrong odometry is when wheels slip."""
     speed, seconds = float(rng.integers(2, 9)) / 2, int(rng.integers(2, 13))
@@ -51,7 +51,7 @@ def error_of_odometry(rng: Rng) -> Question:
     answer = speed * seconds * share / 100
     return Question(
         f"The wheels of a robot turn as for ${speed:g}$ m/s straight on, for ${seconds}$ s. Of each turn, {share} % "
-        "slips. How far is the robot from where its odometry believes it to be, in metres?",
+        "slips. How far is the robot from where its odometry says it is, in metres?",
         Number(
             answer,
             unit="m",
@@ -59,7 +59,7 @@ def error_of_odometry(rng: Rng) -> Question:
                 "This is how far the robot has driven. What is the difference to what the wheels say?": (
                     speed * seconds - answer
                 ),
-                "This is how far the robot believes to have driven.": speed * seconds,
+                "This is how far the robot believes it has driven.": speed * seconds,
                 "This is the error of one second. It adds up.": answer / seconds,
             },
         ),

@@ -120,6 +120,13 @@ FIRST, SECOND, OPEN = (
 )
 
 
+def _interval(arrived: int, maps: int) -> tuple[float, float]:
+    """The 95 % interval by the formula of the question, within 0 and 1."""
+    p = arrived / maps
+    half = 2 * (p * (1 - p) / maps) ** 0.5
+    return max(p - half, 0.0), min(p + half, 1.0)
+
+
 def _shown(first: tuple[float, float], second: tuple[float, float]) -> str:
     """What two intervals show."""
     if first[0] > second[1]:
@@ -135,13 +142,12 @@ def more_than_chance(rng: Rng) -> Question:
         maps = int(rng.choice([20, 50, 100, 400, 1000]))
         rates = rng.choice(np.arange(60, 98), size=2, replace=False) / 100
         arrived = [int(n) for n in np.round(rates * maps)]
-        (low, high), (other_low, other_high) = (
-            success_interval(n, maps) for n in arrived
-        )
+        (low, high), (other_low, other_high) = (_interval(n, maps) for n in arrived)
+        exact = _shown(*(success_interval(n, maps) for n in arrived))
         half = max(high - low, other_high - other_low) / 2
         gap = abs(arrived[0] - arrived[1]) / maps
         plain = arrived[0] != arrived[1] and (gap < half or gap > 3 * half)
-        if plain and right == _shown((low, high), (other_low, other_high)):
+        if plain and right == exact == _shown((low, high), (other_low, other_high)):
             break
     intervals = (
         f"{100 * low:.1f} to {100 * high:.1f} %",
@@ -164,5 +170,10 @@ def more_than_chance(rng: Rng) -> Question:
             {option: apart + hint for option, hint in hints.items() if option != right},
             order=(FIRST, SECOND, OPEN),
         ),
-        f"{apart}{'they overlap' if right == OPEN else 'they do not overlap'}.",
+        apart
+        + (
+            "they overlap. This does not show that both are equally good."
+            if right == OPEN
+            else "they do not overlap."
+        ),
     )

@@ -316,7 +316,7 @@ def stored_or_used(rng: Rng) -> Question:
         if _beyond_chance(taken, worlds)
         else NOT_USED
     )
-    shares = f"The probe is right in {100 * read / worlds:.0f} %, and the robot in {100 * taken / worlds:.0f} %"
+    shares = f"The probe is right in {100 * read / worlds:.3g} %, and the robot in {100 * taken / worlds:.3g} %"
     why = {
         NOT_STORED: f"{shares}. Chance alone gives 50 %, so neither shows a memory of the side.",
         NOT_USED: f"{shares}. The side can be read from the memory, and the turns are like chance.",

@@ -120,11 +120,13 @@ def numbers_of_weights(rng: Rng) -> Question:
 @drill(PAGE, "How far does a unit see?")
 def cells_that_a_unit_sees(rng: Rng) -> Question:
     """Compute the receptive field of a unit after some convolutional layers."""
-    layers, stride = int(rng.integers(2, 5)), int(rng.integers(1, 4))
-    window = int(rng.choice([3, 5, 7]))
-    cells = int(rng.choice([8, 12, 16, 20, 24, 32, 40, 64]))
+    cells, seen = 0, 1
+    while seen > cells:  # a unit sees a part of the picture
+        layers, stride = int(rng.integers(2, 5)), int(rng.integers(1, 4))
+        window = int(rng.choice([3, 5, 7]))
+        cells = int(rng.choice([24, 32, 40, 48, 64, 80, 96, 128]))
+        seen = 1 + sum((window - 1) * stride**k for k in range(layers))
     width = float(rng.choice([0.25, 0.5, 1.0]))
-    seen = 1 + sum((window - 1) * stride**k for k in range(layers))
     answer = seen * width
     return Question(
         f"A network has {layers} convolutional layers, one after the other. Each has windows of "
