@@ -5,7 +5,8 @@ r"""The bug of the page leaves an obstacle where it sees a place nearer to the t
 *Bug2* (Lumelsky and Stepanov, 1987) remembers a line instead, the one from its start
 to its target. It goes along this line until it meets an obstacle, follows the obstacle
 all the time on the same side, and leaves it where it meets the line again, nearer to
-the target than where it met the obstacle, if the way to the target is free there.
+the target than where it met the obstacle, if the way to the target is free there. Here
+the line goes on behind the target, and a robot may meet it there, too.
 
 A robot moves in steps, so it seldom stands on the line exactly. It meets the line with
 a step if it stands on the line after the step, or if the place before and the place
@@ -31,7 +32,7 @@ def leave(
     path : (T + 1, 2), x and y of the robot: where it met the obstacle, on the line, and
         after each of the T steps since then.
     free : (T + 1,), whether the way to the target is free at each of these places.
-    start, target : (2,), x and y of the two ends of the line.
+    start, target : (2,), x and y of two places on the line.
 
     Returns
     -------

@@ -9,8 +9,9 @@ robots drive at once, each in a column of its own.
 
 An episode ends in one of two ways. If it terminated, with an arrival or a collision,
 its last state has no value. If the time limit ended it, the robot would have gone on,
-so the value of its last state counts. Either way the next row belongs to another
-episode, whose advantage must not flow back into this one.
+so the value of its last state counts. If both flags of a step are set, the episode
+terminated. Either way the next row belongs to another episode, whose advantage must not
+flow back into this one.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 r"""An open task: let a robot learn with a policy gradient. The check makes two small
 networks with random weights. The five outputs of the policy's network are those whose
 softmax is the policy, and the critic's single output is to become the value of a state.
-Then robots practise in twelve rounds, each in 60 new worlds. Where nothing is near, a
+Then robots practise in twelve rounds, each in 60 new worlds. With nothing in range, a
 robot turns to its target and goes. Elsewhere it draws its action from the policy. After
 each round your function gets the weights and the steps of this round alone, since older
 ones come from another policy, and returns better weights. So you compute rewards,
