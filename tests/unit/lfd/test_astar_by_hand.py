@@ -10,7 +10,7 @@ from robonav.experiments.chapter3 import tables
 
 PAGE = Path(__file__).parents[3] / "book" / "a-star.md"
 STEPS = {"SA": 2, "SB": 5, "AB": 2, "AC": 3, "BT": 5, "CT": 6}
-REST = {"S": 8, "A": 6, "B": 4, "C": 3, "T": 0}
+REST = {"S": 7, "A": 5, "B": 3, "C": 3, "T": 0}
 
 
 @pytest.fixture
@@ -27,16 +27,17 @@ def neighbours(node):
 
 
 def run():
-    """The expanded nodes with their G and the open list afterwards. Of equal nodes the first letter comes first."""
+    """The expanded nodes with their G and the open list afterwards. No two open nodes have the same F."""
     found, closed = {"S": 0}, set()
     while "T" not in closed:
-        node = min(found.keys() - closed, key=lambda n: (found[n] + REST[n], n))
+        node = min(found.keys() - closed, key=lambda n: found[n] + REST[n])
         closed.add(node)
         for other, length in neighbours(node):
             if found[node] + length < found.get(other, 99):
                 assert other not in closed
                 found[other] = found[node] + length
         waiting = {n: found[n] + REST[n] for n in sorted(found.keys() - closed)}
+        assert len(set(waiting.values())) == len(waiting)  # no tie
         yield node, found[node], waiting
 
 
