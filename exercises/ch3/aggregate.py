@@ -4,10 +4,10 @@
 """In DAgger the learner acts, the expert labels the states that the learner visits, and
 the learner is trained on all data aggregated so far. Write the aggregation for a robot
 with limited memory. Three rules apply. The expert does not label every state: a label
-of $-1$ means that there is none, and such a state is not added. If a state is visited
-that is in the data already, its newest label replaces the older one, and the pair
-counts as the newest. If there are more pairs than fit into the memory, the oldest are
-removed.
+of $-1$ means that there is none, and such a visit changes nothing in the data. If a
+state is visited that is in the data already, its newest label replaces the older one,
+and the pair counts as the newest. If there are more pairs than fit into the memory, the
+oldest are removed.
 """
 
 import numpy as np

@@ -10,11 +10,12 @@ effective steps. Train a network like that of exercise 3.1 on them, with hyperbo
 tangents in the hidden layers and a softmax at the end, and return its weights. Any
 method is fine: gradient descent on the gradients of exercise 3.3, momentum,
 mini-batches. Nobody knows in which order the nine range sensors of a robot are wired,
-so that weights found for one robot are of no use to the next. The check measures how
-often your network agrees with the expert in new steps, and it drives robots with it
-through new worlds, where the action of the largest output is taken. Between 1,000
-and 2,500 examples come. A call may take five seconds, on a busy machine too: stop the
-training well before, for example by the clock.
+so that weights found for one robot are of no use to the next. The check asks for two
+things. Where the expert turns, in new steps, your network must turn to the same side
+in at least 65 of 100. And of the robots that it drives through 100 new worlds, by the
+action of the largest output, at least 80 must arrive. Between 1,000 and 2,500 examples
+come. A call may take five seconds, on a busy machine too: stop the training well
+before, for example by the clock.
 """
 
 import numpy as np

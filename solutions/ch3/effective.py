@@ -1,9 +1,10 @@
 """In most steps of a demonstration nothing is in range, and the robot goes to its
 target by reflex. The chapter keeps only the *effective* pairs, those in which a sensor
-detects something. Here, repetitions are removed as well. A robot that follows a wall,
-for example, has the same state and action many times in a row. First select the
+detects something. Here, repetitions are removed as well. (The chapter also leaves out
+the steps in which the reflex steps back. Here there are none.) A robot that follows a
+wall, for example, has the same state and action many times in a row. First select the
 effective pairs. Then, of several effective pairs in a row with equal state and action,
-keep only the first.
+keep only the first. Steps that are not effective may lie between them.
 """
 
 import numpy as np
