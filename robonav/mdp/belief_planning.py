@@ -213,8 +213,9 @@ def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
 
     1. For each action a and observation o, the known vectors, which are values of the next state s', are carried back
        to the present state s: g(s) = sum over s' of T(s, a, s') Z(o, s', a) alpha(s').
-    2. Each belief b takes the best g for each observation, alpha_ab = r_a + gamma * sum over o of argmax_g b . g,
-    3. and the best action, alpha_b = argmax over the alpha_ab of b . alpha_ab.
+    2. Each belief b takes the best g for each observation.
+    3. They add up to a vector for each action, alpha_ab = r_a + gamma * sum over o of argmax_g b . g.
+    4. Each belief takes the best action, alpha_b = argmax over the alpha_ab of b . alpha_ab.
 
     Examples
     --------
@@ -234,10 +235,10 @@ def backup(pomdp: POMDP, points: Floats, known: AlphaVectors) -> AlphaVectors:
             # 1: carry the known vectors back
             weighted = likelihood * known.vectors  # (K, S'): Z(o, s', a) alpha(s')
             g = (mdp.transitions[action] @ weighted.T).T  # (K, S): the sum over s'
-            # 2: take the best one for each belief
+            # 2, 3: take the best one for each belief, and add up
             best_g = (points @ g.T).argmax(axis=1)  # (N,)
             alphas[action] += mdp.discount * g[best_g]  # (N, S)
-    # 3: take the best action for each belief
+    # 4: take the best action for each belief
     values = np.einsum("ans,ns->na", alphas, points)  # (N, A): b . alpha_ab
     best = values.argmax(axis=1)  # (N,)
     return AlphaVectors(alphas[best, np.arange(len(points))], best)

@@ -211,7 +211,7 @@ def order_of_policy_iteration(rng: Rng) -> Question | None:
     return Question(
         "In each of the states A, B and C the robot can stay, or go to the next one: from A to B, from B to C, from C "
         f"to A. {table}, and $\\gamma = {discount:g}$. Policy iteration begins with the actions {_said(first)}. Put "
-        "these lines of its run in order.",
+        "these lines of its run in order (the run may have more lines).",
         asked,
         f"Evaluation and improvement alternate until an improvement changes nothing. {as_list(asked)}",
     )

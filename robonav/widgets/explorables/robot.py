@@ -60,18 +60,18 @@ def reflex_map(seed: int = 41) -> dict[str, Any]:
 
 @asks(
     "Too fast for its sensors",
-    "The robot senses once a second, and it turns by 60° when something ahead is nearer than 10 m. "
+    "The robot senses once a second, and it turns by 60° when something ahead is nearer than 6 m. "
     "Up to which speed does it always get past the obstacle?",
-    guesses=["2 m/s", "4 m/s", "6.5 m/s", "9 m/s"],
-    right="6.5 m/s",
-    because="At 7 m/s it moves 7 m between two measurements, so it may notice the obstacle only 3 m "
-    "ahead, which is too late.",
+    guesses=["2 m/s", "4 m/s", "6 m/s", "8 m/s"],
+    right="4 m/s",
+    because="At 4.5 m/s it moves 4.5 m between two measurements, so it may notice the obstacle only "
+    "1.5 m ahead. After its turn it then passes nearer than 1 m, which is a collision.",
     files=SIMULATOR,
 )
 def speed_and_sight() -> dict[str, Any]:
     """One circle between start and target."""
     world = make_world(circles=[(50, 50, 4)], start=(10, 50), target=(90, 50))
-    return {"world": page_world(world), "speed": 2, "turnAt": 10}
+    return {"world": page_world(world), "speed": 2, "turnAt": 6}
 
 
 @asks(

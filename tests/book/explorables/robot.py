@@ -88,7 +88,7 @@ def reflex_map(shown: Shown) -> None:
 
 
 @expects(
-    choose("turns when something ahead is nearer than", "6 m"), slide("speed", 0.5)
+    choose("turns when something ahead is nearer than", "10 m"), slide("speed", 0.5)
 )
 def speed_and_sight(shown: Shown) -> None:
     speed = shown.number("speed")
