@@ -64,8 +64,8 @@ def reflex_map(seed: int = 41) -> dict[str, Any]:
     "Up to which speed does it always get past the obstacle?",
     guesses=["2 m/s", "4 m/s", "6 m/s", "8 m/s"],
     right="4 m/s",
-    because="At 4.5 m/s it moves 4.5 m between two measurements, so it may notice the obstacle only "
-    "1.5 m ahead. After its turn it then passes nearer than 1 m, which is a collision.",
+    because="At 4.5 m/s it may notice the obstacle only 1.5 m ahead, and after its turn it then passes "
+    "nearer than 1 m, which is a collision.",
     files=SIMULATOR,
 )
 def speed_and_sight() -> dict[str, Any]:
