@@ -7,11 +7,12 @@
 # Check it with: robonav check 5.7
 r"""An open task: recover a reward. An expert drove a robot through a grid of cells and
 acted optimally for a reward $r(s) = \theta \cdot f(s)$ that you do not know. You are
-given the cells that it visited. Find weights $\theta$ for which an optimal robot drives
-like the expert; several are as good. The check plans with your weights, drives the
-robot in this grid and in another one with the same kinds of terrain, and compares the
-true reward of both trajectories. Any method of the chapter is fine: projection, the
-widest margin, or maximum entropy.
+given the cells that it visited, but not its actions. Each step that the robot spends in
+a cell counts, the first included, and no cell ends an episode. Find weights $\theta$
+for which an optimal robot drives like the expert; several are as good. The check plans
+with your weights, drives the robot in this grid and in another one with the same kinds
+of terrain, and compares the true reward of both trajectories. Any method of the chapter
+is fine: projection, the widest margin, or maximum entropy.
 """
 
 import numpy as np

@@ -1,12 +1,13 @@
 r"""Three quarters of an expert's actions are "forward". A policy that always goes
 forward agrees with three quarters of the demonstrations, and collides with the first
-wall. The chapter gives rare actions a larger weight. Cohen (1960) subtracts the
-agreement that is expected by chance. If expert and policy drew their actions
-independently of the state, each with its own frequencies, they would agree in $c =
-\sum_a p_a q_a$ of the steps, where $p_a$ and $q_a$ are the frequencies of action $a$.
-Compute the plain accuracy $o$, and the agreement beyond chance, $(o - c) / (1 - c)$. It
-is one for a policy that always agrees with the expert, and zero for one whose actions
-do not depend on the state.
+wall. The chapter gives rare actions a larger weight, by balanced accuracy. Cohen (1960)
+subtracts the agreement that is expected by chance. If expert and policy drew their
+actions independently of the state, each with its own frequencies, they would agree in
+$c = \sum_a p_a q_a$ of the steps, where $p_a$ and $q_a$ are the frequencies of action
+$a$. Compute the plain accuracy $o$, and the agreement beyond chance, $(o - c) / (1 -
+c)$. It is one for a policy that always agrees with the expert, zero for one that always
+takes the same action, and zero on average for one that draws its actions without
+looking at the state.
 """
 
 import numpy as np
