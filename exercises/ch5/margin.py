@@ -4,19 +4,19 @@
 r"""A larger project: maximum margin with weights that are easy to interpret. Among all
 rewards $r = \theta \cdot f$ whose weights are not negative and sum to one, find one
 with the largest margin between the expert and the policies found so far: the $\theta$
-for which the smallest $\theta \cdot (\mu_E - \mu_j)$ over the policies $j$ is
-largest. This is a game of two players, in which one chooses the weights and the other a
-policy. It can be solved by a linear program that you write yourself, or by letting both
-players learn.
+for which the smallest $\theta \cdot (\mu_E - \mu_j)$ over the policies $j$ is largest.
+This is a game of two players, in which one chooses the weights and the other a policy.
+It can be solved by a linear program that you write yourself, or by letting both players
+learn.
 
 Multiplicative weights (Freund and Schapire, 1999) is such a method. Each player keeps a
 probability for each of its choices, all equal at first. In every round the gain of a
 feature is its mean difference under the other player's probabilities of the policies,
 and the loss of a policy is its difference under the present $\theta$. A feature's
-probability is multiplied by $e^{\eta \cdot \text{gain}}$, a policy's by $e^{-\eta
-\cdot \text{loss}}$, with a small $\eta$, and each player's probabilities are scaled to
-sum to one. The solution is the mean of $\theta$ over all rounds; the probabilities of
-one round go around it for ever.
+probability is multiplied by $e^{\eta \cdot \text{gain}}$, a policy's by $e^{-\eta \cdot
+\text{loss}}$, with a small $\eta$, and each player's probabilities are scaled to sum to
+one. The solution is the mean of $\theta$ over all rounds; the probabilities of one
+round go around it for ever.
 
 The mean comes as near to the solution as you like. Divide the differences by their
 largest absolute value, so that they lie between $-1$ and 1. After $T$ rounds, with $k$

@@ -1,9 +1,9 @@
 r"""Equation (5.13) adds up discounted features. If these are not negative, a longer
-trajectory has larger feature expectations, and two experts with trajectories of different lengths cannot be
-compared. Compute the discounted *mean* instead. In each trajectory the weights are
-$\gamma^t$, $t = 0, 1, \ldots$, divided by their sum. Then take the mean over the
-trajectories, with equal weights. A feature that is always 1 must have the expectation
-1.
+trajectory has larger feature expectations, and two experts with trajectories of
+different lengths cannot be compared. Compute the discounted *mean* instead. In each
+trajectory the weights are $\gamma^t$, $t = 0, 1, \ldots$, divided by their sum. Then
+take the mean over the trajectories, with equal weights. A feature that is always 1 must
+have the expectation 1.
 """
 
 import numpy as np

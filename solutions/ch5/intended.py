@@ -1,10 +1,11 @@
 r"""On a slippery road the expert's actions are not always the intended ones. The
 chapter's Eq. (5.12) takes the most frequent action in a state. If the probabilities of
-slips are known, there is a better estimate. Assume that the expert means one action in each state, and
-that its steps slip independently of each other. From $P(\text{done} \mid
-\text{meant})$ and a prior over the intended actions, find for each state the intended
-action that is most probable, given all actions done there. A state may occur a thousand times: the
-product of a thousand probabilities is zero in floating-point arithmetic.
+slips are known, there is a better estimate. Assume that the expert means one action in
+each state, and that its steps slip independently of each other. From $P(\text{done}
+\mid \text{meant})$ and a prior over the intended actions, find for each state the
+intended action that is most probable, given all actions done there. A state may occur a
+thousand times: the product of a thousand probabilities is zero in floating-point
+arithmetic.
 """
 
 import numpy as np
