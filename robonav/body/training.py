@@ -31,7 +31,7 @@ def train_in(
     progress: Progress | None = None,
     **settings: Any,
 ) -> NetworkPolicy:
-    """Train a policy by PPO, with a simulator drawn anew for each update.
+    """Train a policy by PPO; each update draws a new simulator.
 
     The loop is that of :func:`robonav.deep.ppo_on_episodes`, which also checks the arguments.
 

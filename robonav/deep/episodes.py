@@ -52,7 +52,7 @@ def ppo_on_episodes(
     entropy_weight: float = 0.03,
     seed: int,
 ) -> ActorCritic:
-    """Train one policy for all robots of simulators that are drawn anew for each update, by PPO.
+    """Train one policy by PPO for all robots of a simulator; each update draws a new simulator.
 
     Each robot is an actor of :func:`robonav.deep.ppo`, with its settings. All share the networks.
 

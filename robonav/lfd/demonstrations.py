@@ -280,7 +280,8 @@ def concatenate(sets: Sequence[Demonstrations]) -> Demonstrations:
     """
     if not sets or len({each.speed for each in sets}) > 1:
         raise ValueError(
-            f"sets must be at least one, of one speed, got {[each.speed for each in sets]}"
+            "sets must hold at least one set, and all must have the same speed, "
+            f"got speeds {[each.speed for each in sets]}"
         )
     before = np.cumsum([0, *(len(each.worlds) for each in sets)])
     return Demonstrations(

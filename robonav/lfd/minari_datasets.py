@@ -15,10 +15,9 @@ from typing import TYPE_CHECKING, Any
 import gymnasium
 import numpy as np
 
-from robonav.robot import OUTCOMES, Action, Sensing, Worlds
+from robonav.robot import OUTCOMES, Action, Sensing, Worlds, concatenate_worlds
 from robonav.robot.environment_settings import REWARD_OF_OUTCOME
 from robonav.robot.environments import NavigationEnv, as_sensing
-from robonav.robot.worlds import concatenate_worlds as concatenate_worlds
 from robonav.validation import check_instance
 
 from .demonstrations import Demonstrations
@@ -201,7 +200,7 @@ def _worlds(
         if episode.get("seed") is None:
             raise ValueError(
                 "dataset must have a seed for each episode, got one without. Minari drops the seeds of episodes that "
-                "are added to a dataset: keep each recording as a dataset, and concatenate_worlds the demonstrations"
+                "are added to a dataset: keep each recording as a dataset, and concatenate the demonstrations"
             )
         env.reset(seed=int(episode["seed"]))
         worlds.append(env.world)

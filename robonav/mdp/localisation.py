@@ -337,14 +337,14 @@ class Localiser:
         ):
             if not sp.issparse(matrix) or matrix.shape != (states, states):
                 raise ValueError(
-                    f"transitions must be sparse matrices ({states}, {states}), not so at action {action}"
+                    f"transitions must be sparse matrices ({states}, {states}), but that of action {action} is not"
                 )
             if (
                 matrix.data.min(initial=0) < 0
                 or (abs(matrix.sum(axis=1) - 1) > SUM_TOLERANCE).any()
             ):
                 raise ValueError(
-                    f"transitions must hold one distribution a row, not so at action {action}"
+                    f"transitions must hold one distribution a row, but those of action {action} do not"
                 )
 
     @checked

@@ -41,7 +41,7 @@ def checked_layers(
     )
     if not kept_weights or len(kept_weights) != len(kept_biases):
         raise ValueError(
-            f"weights and biases must be as many, at least one each, got {len(kept_weights)} and {len(kept_biases)}"
+            f"weights and biases must have one array for each layer, got {len(kept_weights)} and {len(kept_biases)}"
         )
     for layer, (weight, bias) in enumerate(zip(kept_weights, kept_biases, strict=True)):
         if weight.ndim < 2 or 0 in weight.shape:

@@ -47,7 +47,9 @@ def learning_task(name: str, value: Any) -> Any:
 def improver(name: str, value: Any) -> Any:
     """What improves a network, see ``Improver``."""
     if isinstance(value, type) or not hasattr(value, "improve"):
-        raise TypeError(f"{name} must be such as ReplaySGD(), got {value!r}")
+        raise TypeError(
+            f"{name} must have a method improve, as ReplaySGD() has, got {value!r}"
+        )
     return value
 
 

@@ -53,7 +53,7 @@ class Decisions:
     actions : (M,) array of int
         0 to A - 1.
     trajectory : (M,) array of int
-        The episode of each, ascending from 0 to N - 1. An episode may have no decisions.
+        The number of each decision's episode, ascending from 0 to N - 1. An episode may have no decisions.
     times : (M,) array of int
         Seconds since the episode began, those of reflexes counted.
     collided : (N,) array of bool

@@ -117,7 +117,7 @@ def count_pairs(
     rows = np.asarray(states)
     if len(rows) != np.size(actions):
         raise ValueError(
-            f"states must be as many as the actions, {np.size(actions)}, got {len(rows)}"
+            f"states must have one row for each of the {np.size(actions)} actions, got {len(rows)}"
         )
     _, which = np.unique(rows, axis=0, return_inverse=True)
     which = which.reshape(len(rows))

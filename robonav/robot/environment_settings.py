@@ -173,7 +173,7 @@ def as_reflex(given: ReflexRule | str | None) -> ReflexRule | None:
 
 
 def check_reflexes(given: ArrayLike, number: int) -> NDArray[np.int64]:
-    """Return what a reflex of one's own gives: ``number`` whole numbers -1 to 7; raise ValueError for anything else."""
+    """Return the answers of a user's reflex, ``number`` whole numbers -1 to 7; raise ValueError for anything else."""
     reflexes = np.asarray(given)
     fits = reflexes.dtype.kind in "iu" and reflexes.shape == (number,)
     if not fits or (reflexes < NO_REFLEX).any() or (reflexes > TO_SECTOR).any():
@@ -211,8 +211,8 @@ class NavigationSettings:
         """Draw a world from each of N random generators, or choose one of ``worlds``.
 
         In a new world half of the obstacles are circles (radius 1.5 to 4 m) and half rectangles (sides of 3 to 8 m).
-        They lie at random, at least 6 m from the start and the target. A world is drawn again if no way leads to the
-        target 2 m clear of what stands still.
+        They lie at random, at least 6 m from the start and the target. A world is drawn again if no path to
+        the target stays 2 m away from the obstacles that stand still.
         """
         if self.worlds is not None:
             number = len(self.worlds)

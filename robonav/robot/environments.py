@@ -39,7 +39,8 @@ class NavigationEnv(gymnasium.Env):
     """## Options
 
     The parameters below change maps, robot and reward. ``reset(options={"worlds": world})`` puts the robot into a given
-    world, a batch of one. A new world is drawn again if no way leads to the target 2 m clear of what stands still.
+    world, a batch of one. A new world is drawn again if no path to the target stays 2 m
+    away from the obstacles that stand still.
 
     This is the compiled twin of :class:`PlainNavigationEnv`: a :class:`Simulator` of one robot. The time limit of
     ``gymnasium.make`` is outside of it, so that the outcome is then still ``RUNNING``. ``target_region`` is counted

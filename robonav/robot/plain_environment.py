@@ -156,8 +156,8 @@ class PlainNavigationEnv(gymnasium.Env):
     ) -> Observation:
         """Put the robot into a map, and return what it senses.
 
-        The state of the environment are these five attributes and ``self.ranges``, which :meth:`sense` sets: what the
-        robot sensed last decides whether its reflex acts in the next step.
+        The state of the environment consists of these five attributes and ``self.ranges``, which :meth:`sense` sets.
+        What the robot sensed last decides whether its reflex acts in the next step.
 
         Parameters
         ----------
@@ -184,7 +184,7 @@ class PlainNavigationEnv(gymnasium.Env):
     def step(self, action: int) -> tuple[Observation, float, bool, bool, Info]:
         """Simulate one second: the robot moves, its episode may end, it senses again.
 
-        Nothing here looks whether the episode has ended before.
+        This method does not check whether the episode has already ended.
         """
         start = self.position
         self.heading, distance = self.heading_and_distance(action)

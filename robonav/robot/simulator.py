@@ -226,7 +226,7 @@ def check_action(action: Any) -> int:
 
 
 def check_commands(commands: Any, number: int) -> NDArray[np.int64]:
-    """Return the commands of so many robots, whole numbers 0 to 7; raise ValueError for anything else."""
+    """Return the commands of ``number`` robots, whole numbers 0 to 7; raise ValueError for anything else."""
     fits = (
         isinstance(commands, np.ndarray)
         and commands.dtype.kind in "iu"
@@ -469,7 +469,7 @@ class Simulator:
         self.outcome[rows[self.outcome[rows] == RUNNING]] = OUT_OF_STEPS
 
     def _rows(self, robots: NDArray[np.int64] | None) -> NDArray[np.int64]:
-        """The robots to sense or step; the compiled code below does not look whether they exist."""
+        """The robots to sense or step; the compiled code below does not check that they exist."""
         if robots is None:
             return self._everyone
         rows = check_array("robots", robots, shape=("K",), dtype=np.int64)

@@ -15,7 +15,7 @@ COLLISION_DISTANCE = 1.0  # d_col: degree of danger 7
 ARRIVAL_DISTANCE = 3.0  # d_win
 BACKWARD, TO_TARGET, TO_SECTOR = 5, 6, 7
 NO_REFLEX = -1  # what the reflex answers where the policy decides
-DIRECTION = "sector"  # what a reflex knows of the direction of the target, unless another is given: or "exact"
+DIRECTION = "sector"  # how well a reflex knows the direction of the target by default; the other choice is "exact"
 TURNS = np.radians([0.0, 30.0, 60.0, -30.0, -60.0, 0.0])  # F, L30, L60, R30, R60, B
 
 TURN_PROBABILITY = (

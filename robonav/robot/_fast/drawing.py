@@ -202,10 +202,11 @@ def draw_worlds(
     start, stop, keys, still, moving, slowest, fastest, size, starts, targets, attempts, kinds, shapes, centres, speeds,
     headings, chosen, found,
 ):  # fmt: skip
-    """Draw worlds ``start`` to ``stop`` until each has a way through, ``attempts`` times at most.
+    """Draw worlds ``start`` to ``stop`` until each has a path to its target, ``attempts`` times at most.
 
-    Half of the standing obstacles are circles, half rectangles; so with the moving ones. ``chosen`` (N, 4) gets start
-    and target, each one of ``starts`` (S, 2) and ``targets`` (T, 2); ``found`` (N,) whether a map was found.
+    Half of the standing obstacles are circles and half rectangles, and so are the moving ones. ``chosen`` (N, 4) gets
+    the start and the target, drawn from ``starts`` (S, 2) and ``targets`` (T, 2). ``found`` (N,) gets whether a map was
+    found.
     """
     empty = empty_grid(size, SPARE)
     closed, stack = np.empty_like(empty), np.empty(empty.size, dtype=np.int64)

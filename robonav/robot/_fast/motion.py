@@ -51,7 +51,7 @@ def wrap(angle):
 
 @compiled
 def turned_to_target(command, heading, dx, dy):
-    """The heading of a robot that turns to a target (dx, dy) away: to the target itself, or to its sector's middle."""
+    """The heading of a robot that has turned to a target at (dx, dy) from it, or to the middle of its sector."""
     if command == TO_TARGET:
         return math.atan2(dy, dx)
     return wrap(
@@ -108,7 +108,7 @@ def drift(start, stop, kinds, shapes, speeds, keys, steps, size, centres, headin
 
 @inlined
 def destination(j, i, keys, targets, slip, speed, actions, poses, steps):
-    """Where robot i goes in this second by action j, and its heading then; ``actions`` gets what a slip made of it."""
+    """Where robot i is after this second's action j, and its heading; ``actions`` gets the action that a slip left."""
     x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
     action = actions[j]
     if action in (TO_TARGET, TO_SECTOR):
@@ -207,7 +207,7 @@ def second(
     start, stop, robots, kinds, shapes, speeds, keys, size, targets, slip, speed, max_steps, noise, actions, poses,
     centres, headings, steps, outcome, ranges, walls, region, seen,
 ):  # fmt: skip
-    """One second, as ``step`` has it, and what the robots sense then, as ``sense`` has it.
+    """Simulate one second as ``step`` does, and then let the robots sense as ``sense`` does.
 
     A robot looks for obstacles nearby once, before it moves, and computes the cosine of its heading once.
     """

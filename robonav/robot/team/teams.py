@@ -71,7 +71,7 @@ class Teams:
             object.__setattr__(self, name, np.array(points, order="C"))
         if self.starts.shape != self.targets.shape or self.robots == 0:
             raise ValueError(
-                "teams: starts and targets must be of as many robots, at least one, "
+                "teams: starts and targets must hold one point for each robot, "
                 f"got {self.starts.shape[1]} and {self.targets.shape[1]}"
             )
         apart = np.linalg.norm(self.starts[:, :, None] - self.starts[:, None], axis=3)

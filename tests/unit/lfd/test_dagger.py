@@ -84,7 +84,7 @@ def test_joined_sets(demonstrations, gone_straight):
         [],
         [demonstrations, demonstrate(random_worlds(1, 0, seed=1), speed=1.0)],
     ):
-        with pytest.raises(ValueError, match="sets must be at least one, of one speed"):
+        with pytest.raises(ValueError, match="sets must hold at least one set"):
             concatenate(sets)
 
 

@@ -191,7 +191,7 @@ STAY = pose_transitions(SMALL, [(0.0, 0.0)])
         (
             {"predicted": np.ones((3, 1))},
             ValueError,
-            r"matrices \(3, 3\), not so at action 0",
+            r"matrices \(3, 3\), but that of action 0 is not",
         ),
         ({"predicted": [[1.0], [np.nan]]}, ValueError, "predicted must hold finite"),
         ({"sensor": 0.5}, TypeError, "sensor must be RangeSensor, got float"),

@@ -161,8 +161,8 @@ def test_random_weights_are_the_seeds_own_and_within_the_spread():
 @pytest.mark.parametrize(
     ("weights", "biases", "message"),
     [
-        ([], [], "at least one each"),
-        ([np.ones((2, 3))], [], "as many"),
+        ([], [], "one array for each layer"),
+        ([np.ones((2, 3))], [], "one array for each layer"),
         ([np.ones(3)], [np.ones(1)], r"weights\[0\] must have shape"),
         ([np.ones((0, 3))], [np.ones(0)], r"weights\[0\] must have shape"),
         (

@@ -224,7 +224,7 @@ def test_arguments_of_another_type(demonstrations):
         ):
             with pytest.raises(TypeError, match=sentence):
                 method(*arguments)
-        with pytest.raises(TypeError, match="improver must be such as ReplaySGD"):
+        with pytest.raises(TypeError, match="improver must have a method improve"):
             method(expert, task, improver=3)
         if method in (METHODS["nirl"], METHODS["apprenticeship"]):
             with pytest.raises(TypeError, match="score must be callable, got str"):

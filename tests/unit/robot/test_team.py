@@ -268,7 +268,10 @@ def test_random_teams_keep_clear_of_every_start_and_target():
     [
         (lambda: on_empty_map((50, 50, 9, 9), (51, 50, 9, 9)), "2 m apart"),
         (lambda: on_empty_map((50, 50, 101, 9)), "targets must lie in the map"),
-        (lambda: Teams(make_world(), [[(1, 1)]], [[(1, 1), (5, 5)]]), "as many robots"),
+        (
+            lambda: Teams(make_world(), [[(1, 1)]], [[(1, 1), (5, 5)]]),
+            "one point for each robot",
+        ),
         (lambda: Teams(make_world(), [[1, 1]], [[1, 1]]), "shape"),
         (lambda: crossing(65), "at most 64"),
         (lambda: random_teams(2, 3, seed=0, starts=[(1, 1)]), "shape"),

@@ -153,7 +153,7 @@ def test_a_picture_has_every_robot_that_is_running(two):
         (lambda: TeamEnv(robots=0), ValueError, "robots must be at least 1"),
         (lambda: TeamEnv(speed=-1), ValueError, "speed must be greater than 0"),
         (lambda: TeamEnv(render_mode="human"), ValueError, "render_mode"),
-        (lambda: TeamEnv(robots=2, starts=[(10, 10)]).reset(), ValueError, "as many"),
+        (lambda: TeamEnv(robots=2, starts=[(10, 10)]).reset(), ValueError, "one point for each robot"),
         (
             lambda: TeamEnv(robots=2).reset(options={"teams": random_teams(2, 2, seed=0)}),
             ValueError,
