@@ -2,7 +2,8 @@
 
 A twin is called as its algorithm in ``dynamic_programming`` or ``asynchronous`` is. On sparse models it gives the same
 numbers. On dense ones NumPy adds the terms of an expected value in another order, and the numbers are the same within
-rounding.
+rounding. There, modified policy iteration may also evaluate another of two equally good actions on its way. Its result
+then agrees with that of its algorithm within the tolerance only.
 """
 
 from __future__ import annotations

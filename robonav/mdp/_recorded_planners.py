@@ -1,8 +1,8 @@
 """Policy iteration for every model, with the record that its readable function leaves out.
 
 Systems of many equations are solved by a Krylov method from the values of the policy before, models without discount
-are allowed, and the rounding error of a gain is bounded from the residual of the equations. On other models the twin
-gives the numbers of the readable function, bit for bit.
+are allowed, and the rounding error of a gain is bounded from the residual of the equations. The values of both
+functions agree within rounding, because they solve the equations by different methods.
 """
 
 from __future__ import annotations

@@ -4,13 +4,17 @@ The decorator :func:`planner` turns an algorithm into the function that users ca
 
 1. checks the arguments;
 2. fills in the default of ``start``, which without discount is a proper policy or its values;
-3. runs the twin of the algorithm from ``_fast_planners`` or ``_recorded_planners``. It gives the same numbers, bit
-   for bit on sparse models and within rounding on dense ones, and keeps the values of each iteration if ``record`` is
-   true. (On dense models NumPy adds the terms of an expected value in another order. Where two actions are equally
-   good, modified policy iteration may then evaluate another policy on its way; both results keep the tolerance);
+3. runs the twin of the algorithm from ``_fast_planners`` or ``_recorded_planners``, which keeps the values of each
+   iteration if ``record`` is true. How closely the two results agree is said below;
 4. warns if the algorithm did not converge;
 5. adds the greedy policy of each row of the history if ``record`` is true, and otherwise drops the history of an
    algorithm that has no twin.
+
+A twin from ``_fast_planners`` gives the numbers of its algorithm bit for bit on sparse models. On dense ones NumPy adds
+the terms of an expected value in another order, so the numbers differ by rounding. Where two actions are equally good,
+this can change which of them modified policy iteration evaluates on its way. Its two results may then differ by up to
+the tolerance: each keeps the tolerance, but they are not equal within rounding. The twin of policy iteration solves the
+linear equations by another method, so its values agree within rounding on every model.
 
 ``inspect.unwrap(planner)`` is the algorithm as written, for a discount below 1.
 """
