@@ -38,8 +38,8 @@ EXTRAS := book,lab,grading,exams,cluster,tests,benchmarks,formats,clients,team,b
 .PHONY: help open install book pdf slides check test test-all lab lock clean
 help:
 	@echo "make open   build the book and open it in the browser"
-	@echo "make test   run every check and test, in some ten minutes"
-	@echo "make test-all also run every experiment again, and open every page in the dark"
+	@echo "make test   run the checks and the tests, all but those marked exhaustive, in some ten minutes"
+	@echo "make test-all run the exhaustive tests too: every experiment again, every page in the dark"
 	@echo "make book   build the book into _build/html"
 	@echo "make pdf    print the built book to _build/robonav.pdf; needs Chromium"
 	@echo "make slides make a deck of slides for each chapter page in _build/slides, from the built book"
