@@ -269,8 +269,8 @@ class FiniteMDP:
         array([[3.7],
                [3.6]])
         """
-        expected_next_values = self.expected_next_values(values)  # Eq. (2.11)
-        return self.rewards + self.discount * expected_next_values  # Eq. (2.15)
+        expected = self.expected_next_values(values)  # sum over s' of T(s, a, s') V(s')
+        return self.rewards + self.discount * expected  # Eqs. (2.11) and (2.15)
 
     def greedy(self, values: ArrayLike) -> NDArray[np.intp]:
         """Greedy policy with respect to values, Eq. (2.25); of equal actions the first.

@@ -196,6 +196,43 @@ class SubgradientMaxMargin:
         return weights + gap / np.sqrt(iteration)
 
 
+def least_squares_objective(
+    theta: Floats, mu: Floats, q: Floats, regularisation: float
+) -> tuple[float, Floats]:
+    """The thesis's objective J(theta), with a mean in place of its sum, and its gradient, Eq. (5.14).
+
+    Parameters
+    ----------
+    theta : (K,) array
+        Weights of the reward.
+    mu : (M, K) array
+        mu_E(s_t, a_t): the discounted features of the expert from each of its M decisions on.
+    q : (M,) array
+        Q(s_t, a_t): the values that the learner's network gives these decisions.
+    regularisation : float
+        lambda.
+
+    Returns
+    -------
+    J : float
+    gradient : (K,) array
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl.reward_update import least_squares_objective
+    >>> least_squares_objective(np.array([1.0]), np.array([[3.0], [2.0]]), np.ones(2), regularisation=0.5)
+    (3.0, array([8.5]))
+    """
+    difference = mu @ theta - q  # (M,): the expert's value minus the learner's
+    length = float(np.linalg.norm(theta))
+    J = (difference**2).mean() + regularisation * length  # Eq. (5.14)
+    gradient = 2 * mu.T @ difference / len(mu)
+    if length > 0:
+        gradient = gradient + regularisation / length * theta
+    return float(J), gradient
+
+
 @dataclass(frozen=True)
 class LeastSquaresReward:
     """The thesis's objective taken literally: least squares between the expert's values and the network's.
@@ -241,7 +278,7 @@ class LeastSquaresReward:
         weights: Floats,
         iteration: int,
     ) -> Floats:
-        """theta (A, k + 1) that minimises the thesis's objective in the unit ball, Eq. (5.14)."""
+        """theta (A, k + 1) that minimises ``least_squares_objective`` in the unit ball."""
         actions, n_actions = demonstrations.actions, action_values.shape[1]
         mu = decision_feature_sums(demonstrations, n_actions, self.discount)
         q = action_values[np.arange(len(actions)), actions]
@@ -249,8 +286,6 @@ class LeastSquaresReward:
         curvature = float(np.linalg.norm(mu.T @ mu / len(mu), 2))
         step = 0.5 / max(curvature, 1e-12)  # no larger, or the descent diverges
         for _ in range(self.iterations):
-            gradient = 2 * mu.T @ (mu @ theta - q) / len(mu)  # Eq. (5.14)
-            length = np.linalg.norm(theta)
-            decay = self.regularisation / length * theta if length > 0 else 0.0
-            theta = project_to_unit_ball(theta - step * (gradient + decay))
+            _, gradient = least_squares_objective(theta, mu, q, self.regularisation)
+            theta = project_to_unit_ball(theta - step * gradient)
         return theta.reshape(n_actions, -1)

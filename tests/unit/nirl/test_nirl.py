@@ -42,6 +42,7 @@ from robonav.nirl import (
     train_under_reward,
 )
 from robonav.nirl.policy_improvement import compiled_sarsa_descent
+from robonav.nirl.reward_update import least_squares_objective
 
 RNG = np.random.default_rng(0)
 
@@ -383,6 +384,17 @@ def test_equation_514_finds_the_least_squares_fit():
     )
     np.testing.assert_allclose(mu @ theta.ravel(), mu @ fitted, atol=1e-4)
     assert np.linalg.norm(theta) <= 1
+
+
+def test_the_gradient_of_equation_514_is_its_difference_quotient():
+    rng, theta = np.random.default_rng(0), np.array([0.3, -0.2, 0.5])
+    mu, q = rng.random((7, 3)), rng.random(7)
+    _, gradient = least_squares_objective(theta, mu, q, 0.7)
+    for place, step in enumerate(1e-6 * np.eye(3)):
+        above, below = (
+            least_squares_objective(theta + h, mu, q, 0.7)[0] for h in (step, -step)
+        )
+        assert gradient[place] == pytest.approx((above - below) / 2e-6, rel=1e-6)
 
 
 # -- choice ------------------------------------------------------------------------------------------------------------
