@@ -75,6 +75,14 @@ MODEL_ARRAYS = {
 }
 """Arrays of numbers whose shape follows from the argument ``mdp``."""
 
+STARTING_VALUES = {
+    "policy_evaluation": "guess",
+    "iterative_policy_evaluation": "start",
+    "backward_induction": "final_values",
+    "finite_horizon_evaluation": "final_values",
+}
+"""Optional arguments with one value a state, by function. The function gets a copy, as its result may be that array."""
+
 CHECKING_METHODS = {
     "action": "as_action",
     "belief": "as_belief",
@@ -95,6 +103,11 @@ def check_by_model(function: str, arguments: dict[str, Any]) -> None:
         model = getattr(arguments["self"], "pomdp", arguments["self"])
         for name in CHECKING_METHODS.keys() & arguments.keys():
             arguments[name] = getattr(model, CHECKING_METHODS[name])(arguments[name])
+    if function in STARTING_VALUES:
+        name, states = STARTING_VALUES[function], arguments["mdp"].n_states
+        if arguments[name] is not None:
+            given = check_array(name, arguments[name], shape=(states,))
+            arguments[name] = given.copy()
     if function == "expected_return":
         states = arguments["mdp"].n_states
         arguments["start"] = as_distributions("start", arguments["start"], states)

@@ -22,7 +22,6 @@ def in_place_value_iteration(
     *,
     start: ArrayLike | None = None,
     max_iterations: int = 100_000,
-    record: bool = False,
 ) -> Solution:
     """Value iteration whose sweeps use each new value at once (Gauss-Seidel): fewer sweeps, the same guarantee.
 
@@ -74,7 +73,7 @@ def in_place_value_iteration(
     return Solution(values, policy, iteration, residual, residual <= epsilon)
 
 
-@planner(start=first_values, limit=error_limit, twin="_fast_planners")
+@planner(start=first_values, limit=error_limit, twin="_fast_planners", records=False)
 def prioritized_sweeping(
     mdp: FiniteMDP,
     tolerance: float = 1e-6,

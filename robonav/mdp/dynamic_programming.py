@@ -80,7 +80,6 @@ def value_iteration(
     *,
     start: ArrayArgument | None = None,
     max_iterations: int = 100_000,
-    record: bool = False,
 ) -> Solution:
     """Value iteration, Algorithm 2, Eq. (2.26).
 
@@ -142,7 +141,6 @@ def policy_iteration(
     *,
     start: ArrayArgument | None = None,
     max_iterations: int = 1000,
-    record: bool = False,
 ) -> Solution:
     """Policy iteration, Algorithm 1, with each policy evaluated exactly.
 
@@ -229,7 +227,6 @@ def modified_policy_iteration(
     sweeps: int = 8,
     start: ArrayArgument | None = None,
     max_iterations: int = 100_000,
-    record: bool = False,
 ) -> Solution:
     """Modified policy iteration: improve once, evaluate by a few sweeps, repeat.
 

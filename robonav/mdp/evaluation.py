@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import wraps
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import ArrayArgument, check_array
+from robonav.validation import ArrayArgument
 
 from . import undiscounted
 from ._arguments import checked
@@ -54,7 +57,7 @@ class EvaluationResult:
 
 @checked
 def policy_evaluation(
-    mdp: FiniteMDP, policy: ArrayLike, *, guess: ArrayLike | None = None
+    mdp: FiniteMDP, policy: ArrayLike, *, guess: ArrayArgument | None = None
 ) -> Floats:
     """Values of a policy, the solution of Bellman's equation, Eq. (2.5).
 
@@ -87,7 +90,7 @@ def policy_evaluation(
     array([-0.47, -0.3 ,  0.13, -0.  ])
     """
     transitions, rewards = mdp.induced_chain(policy)
-    near = starting_values("guess", mdp, guess)
+    near = np.zeros(mdp.n_states) if guess is None else guess
     if mdp.discount == 1:
         return undiscounted.policy_values(transitions, rewards, guess=near)
     identity = sp.eye_array(mdp.n_states, format="csr")
@@ -130,16 +133,79 @@ def error_limit(mdp: FiniteMDP, tolerance: float) -> float:
     return tolerance * (1 if mdp.discount == 1 else (1 - mdp.discount) / 2)
 
 
+def keeps_history(
+    evaluate: Callable[..., EvaluationResult],
+) -> Callable[..., EvaluationResult]:
+    """Give an evaluation by sweeps the argument ``record``, which asks for the values of every sweep.
+
+    The sweeps are done again for the record, with the same numbers, so that the evaluation itself keeps nothing.
+    """
+    signature = inspect.signature(evaluate)
+
+    @wraps(evaluate)
+    def run(*args: Any, record: bool = False, **kwargs: Any) -> EvaluationResult:
+        """Evaluate the policy, and add the history if it is asked for."""
+        result = evaluate(*args, **kwargs)
+        if not record:
+            return result
+        call = signature.bind(*args, **kwargs)
+        call.apply_defaults()
+        mdp, policy, start = (
+            call.arguments[name] for name in ("mdp", "policy", "start")
+        )
+        history = swept_values(mdp, policy, start, result.iterations)
+        return replace(result, history=history)
+
+    run.__signature__ = with_record(signature)  # type: ignore[attr-defined]
+    return run
+
+
+def swept_values(
+    mdp: FiniteMDP, policy: ArrayLike, start: Floats | None, sweeps: int
+) -> Floats:
+    """The values before the first sweep and after each, (sweeps + 1, S).
+
+    Examples
+    --------
+    >>> from robonav.mdp import FiniteMDP
+    >>> mdp = FiniteMDP([[[1.0]]], [[1.0]], discount=0.5)
+    >>> swept_values(mdp, [0], None, sweeps=2).ravel()
+    array([0. , 1. , 1.5])
+    """
+    transitions, rewards = mdp.induced_chain(policy)
+    rows = np.zeros((sweeps + 1, mdp.n_states))
+    if start is not None:
+        rows[0] = start
+    for sweep in range(sweeps):
+        rows[sweep + 1] = rewards + mdp.discount * (transitions @ rows[sweep])
+    return rows
+
+
+def with_record(signature: inspect.Signature) -> inspect.Signature:
+    """The signature with one more argument by name, ``record=False``.
+
+    Examples
+    --------
+    >>> import inspect
+    >>> print(with_record(inspect.signature(lambda mdp, *, sweeps: None)))
+    (mdp, *, sweeps, record: 'bool' = False)
+    """
+    record = inspect.Parameter(
+        "record", inspect.Parameter.KEYWORD_ONLY, default=False, annotation="bool"
+    )
+    return signature.replace(parameters=[*signature.parameters.values(), record])
+
+
 @checked
 @warns_not_converged(evaluation_residual)
+@keeps_history
 def iterative_policy_evaluation(
     mdp: FiniteMDP,
     policy: ArrayLike,
     *,
     tolerance: float = 1e-6,
-    start: ArrayLike | None = None,
+    start: ArrayArgument | None = None,
     max_iterations: int = 100_000,
-    record: bool = False,
 ) -> EvaluationResult:
     """Values of a policy by repeated sweeps, Eq. (2.24).
 
@@ -178,20 +244,18 @@ def iterative_policy_evaluation(
     array([-0.47, -0.3 ,  0.13,  0.  ])
     """
     transitions, rewards = mdp.induced_chain(policy)  # T_pi (S, S) and r_pi (S,)
-    values = starting_values("start", mdp, start)
-    history = ValueHistory(record)
-    history.append(values)
+    values = np.zeros(mdp.n_states) if start is None else start
     epsilon = evaluation_residual(mdp, tolerance)
     for iteration in range(1, max_iterations + 1):  # 5: repeat
         previous = values
-        values = rewards + mdp.discount * (transitions @ previous)  # 6  Eq. (2.24)
-        history.append(values)  # 7
+        values = rewards + mdp.discount * (
+            transitions @ previous
+        )  # 6 and 7  Eq. (2.24)
         residual = abs(values - previous).max()
         if residual <= epsilon:  # 8
             break
     converged = bool(residual <= epsilon)
-    rows = history.rows
-    return EvaluationResult(values, iteration, float(residual), converged, rows)
+    return EvaluationResult(values, iteration, float(residual), converged)
 
 
 @checked
@@ -246,17 +310,3 @@ class ValueHistory:
     def rows(self) -> NDArray[Any] | None:
         """All of them, (rows, S), or None if nothing is kept."""
         return None if self._rows is None else np.stack(self._rows)
-
-
-def starting_values(name: str, mdp: FiniteMDP, given: ArrayLike | None) -> Floats:
-    """A copy of the values to start from; zeros unless given.
-
-    Examples
-    --------
-    >>> from robonav.mdp import four_by_three
-    >>> starting_values("start", four_by_three().mdp(0.9), None).shape
-    (11,)
-    """
-    if given is None:
-        return np.zeros(mdp.n_states)
-    return check_array(name, given, shape=(mdp.n_states,)).copy()

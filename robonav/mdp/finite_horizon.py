@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from robonav.validation import ArrayArgument
+
 from ._arguments import checked
-from .evaluation import starting_values
 from .models import FiniteMDP
 
 Floats = NDArray[np.float64]
@@ -39,7 +40,7 @@ class FiniteHorizonSolution:
 
 @checked
 def backward_induction(
-    mdp: FiniteMDP, horizon: int, *, final_values: ArrayLike | None = None
+    mdp: FiniteMDP, horizon: int, *, final_values: ArrayArgument | None = None
 ) -> FiniteHorizonSolution:
     """Backward induction: optimal values and policy for each of the next ``horizon`` steps.
 
@@ -67,7 +68,7 @@ def backward_induction(
     """
     values = np.empty((horizon + 1, mdp.n_states))
     policy = np.empty((horizon, mdp.n_states), dtype=np.intp)
-    values[horizon] = starting_values("final_values", mdp, final_values)
+    values[horizon] = 0.0 if final_values is None else final_values
     for t in reversed(range(horizon)):
         q = mdp.rewards + mdp.discount * mdp.expected_next_values(values[t + 1])
         values[t], policy[t] = q.max(axis=1), q.argmax(axis=1)
@@ -80,7 +81,7 @@ def finite_horizon_evaluation(
     policy: ArrayLike,
     horizon: int,
     *,
-    final_values: ArrayLike | None = None,
+    final_values: ArrayArgument | None = None,
 ) -> Floats:
     """Expected return of a policy in the next ``horizon`` steps, Eq. (2.27); discounted by the model's discount.
 
@@ -106,7 +107,7 @@ def finite_horizon_evaluation(
     array([1.75])
     """
     transitions, rewards = mdp.induced_chain(policy)
-    values = starting_values("final_values", mdp, final_values)
+    values = np.zeros(mdp.n_states) if final_values is None else final_values
     for _ in range(horizon):
         values = rewards + mdp.discount * (transitions @ values)  # Eq. (2.27)
     return values

@@ -2,13 +2,12 @@
 
 The decorator :func:`planner` turns an algorithm into the function that users call. It
 
-1. checks the arguments;
+1. adds the argument ``record`` where the twin keeps a record, and checks the arguments;
 2. fills in the default of ``start``, which without discount is a proper policy or its values;
 3. runs the twin of the algorithm from ``_fast_planners`` or ``_recorded_planners``, which keeps the values of each
    iteration if ``record`` is true. How closely the two results agree is said below;
 4. warns if the algorithm did not converge;
-5. adds the greedy policy of each row of the history if ``record`` is true, and otherwise drops the history of an
-   algorithm that has no twin.
+5. adds the greedy policy of each row of the history if ``record`` is true.
 
 A twin from ``_fast_planners`` gives the numbers of its algorithm bit for bit on sparse models. On dense ones NumPy adds
 the terms of an expected value in another order, so the numbers differ by rounding. Where two actions are equally good,
@@ -26,25 +25,25 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
 from importlib import import_module
-from typing import Any, ParamSpec
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._arguments import checked
 from .convergence import warn_not_converged
+from .evaluation import with_record
 from .models import FiniteMDP
 from .solutions import Solution, greedy_policy
-
-P = ParamSpec("P")
 
 
 def planner(
     *,
     start: Callable[[FiniteMDP, ArrayLike | None], Any],
     limit: Callable[[FiniteMDP, float], float],
-    twin: str | None = None,
-) -> Callable[[Callable[P, Solution]], Callable[P, Solution]]:
+    twin: str,
+    records: bool = True,
+) -> Callable[[Callable[..., Solution]], Callable[..., Solution]]:
     """Make a planner of an algorithm.
 
     Parameters
@@ -53,33 +52,34 @@ def planner(
         ``start(mdp, given)`` is what the algorithm starts from where the user gave ``given`` or None.
     limit : callable
         ``limit(mdp, tolerance)`` is the residual at which the algorithm stops, for the warning.
-    twin : str, optional
+    twin : str
         The module with a function of the same name that runs instead: it is compiled, or it keeps a record.
+    records : bool
+        Whether the twin takes an argument ``record``, which is then one of the planner's too.
     """
 
-    def decorate(algorithm: Callable[P, Solution]) -> Callable[P, Solution]:
+    def decorate(algorithm: Callable[..., Solution]) -> Callable[..., Solution]:
         """Make a planner of this algorithm."""
         signature = inspect.signature(algorithm)
+        if records:
+            signature = with_record(signature)
         name = algorithm.__name__
 
-        @checked
         @wraps(algorithm)
-        def plan(*args: P.args, **kwargs: P.kwargs) -> Solution:
-            """Fill in the start, run the algorithm or its twin, and warn where it did not converge."""
+        def plan(*args: Any, **kwargs: Any) -> Solution:
+            """Fill in the start, run the twin of the algorithm, and warn where it did not converge."""
             call = signature.bind(*args, **kwargs)
             call.apply_defaults()
             mdp, tolerance = call.arguments["mdp"], call.arguments["tolerance"]
             call.arguments["start"] = start(mdp, call.arguments["start"])
-            run = twin_of(name, twin) if twin else algorithm
-            solution = run(*call.args, **call.kwargs)
+            solution = twin_of(name, twin)(*call.args, **call.kwargs)
             if not solution.converged:
                 wanted = limit(mdp, tolerance)
                 warn_not_converged(name, solution.iterations, solution.residual, wanted)
-            if not call.arguments.get("record"):
-                return replace(solution, history=None, policies=None)
             return with_policies(mdp, solution, tolerance)
 
-        return plan
+        plan.__signature__ = signature  # type: ignore[attr-defined]
+        return checked(plan)
 
     return decorate
 

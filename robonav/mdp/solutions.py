@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from robonav.validation import check_array
+
 from . import policies, undiscounted
-from .evaluation import starting_values
 from .models import FiniteMDP
 
 Floats = NDArray[np.float64]
@@ -50,6 +51,20 @@ class Solution:
     converged: bool
     history: Floats | None = None
     policies: Actions | None = None
+
+
+def starting_values(name: str, mdp: FiniteMDP, given: ArrayLike | None) -> Floats:
+    """A copy of the values to start from; zeros unless given.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three
+    >>> starting_values("start", four_by_three().mdp(0.9), None).shape
+    (11,)
+    """
+    if given is None:
+        return np.zeros(mdp.n_states)
+    return check_array(name, given, shape=(mdp.n_states,)).copy()
 
 
 def first_values(
