@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,7 +30,7 @@ CAUTION = 2.0  # how much more a step costs near an obstacle, see `plan`
 MARGIN_STEP = 0.5  # metres by which the margin is reduced where it leaves no path
 LIMIT = 50_000  # nodes to expand: many times what a path takes
 
-_NOT_RECORDED = np.empty((0, 3))
+Floats = NDArray[np.float64]
 
 
 @dataclass(eq=False)
@@ -168,15 +169,61 @@ class ComputerExpert:
         move = steps * simulator.speed
         margins = np.arange(self.margin, COLLISION_DISTANCE, -MARGIN_STEP)
         for margin in np.append(margins, COLLISION_DISTANCE):
-            found, poses, actions, _ = _fast.search_actions(
-                *obstacles, pose, target, move, margin, self.caution, cell,
-                LIMIT, False, _NOT_RECORDED,
-            )  # fmt: skip
+            found, poses, actions = search(
+                obstacles, pose, target, move, margin, self.caution, cell
+            )
             if found:
                 poses, actions = as_single_steps(poses, actions, steps, target)
                 return FollowedPlan(poses, actions, target, centres)
         straight_on = np.zeros(1, dtype=np.int64)
         return FollowedPlan(pose[None], straight_on, target, centres)
+
+
+def search(
+    obstacles: tuple[Any, ...],
+    pose: Floats,
+    target: Floats,
+    move: float,
+    margin: float,
+    caution: float,
+    cell: float,
+) -> tuple[bool, Floats, Actions]:
+    """Search for a path by the compiled twin of modified A*, without a record of the nodes expanded.
+
+    Parameters
+    ----------
+    obstacles : tuple
+        Kinds (M,), shapes (M, 3) and centres (M, 2) of the obstacles, and the side of the map.
+    pose : (3,) array
+        x, y and heading to start from.
+    target : (2,) array
+        x and y.
+    move : float
+        Length of a move in metres.
+    margin, caution, cell : float
+        See :func:`plan`.
+
+    Returns
+    -------
+    found : bool
+    poses : (K + 1, 3) array
+    actions : (K,) array of int
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.lfd.computer_expert import search
+    >>> from robonav.robot import make_world
+    >>> world = make_world(start=(10, 10), target=(10, 90))
+    >>> obstacles = world.kinds[0], world.shapes[0], world.centres[0], world.size
+    >>> found, _, actions = search(obstacles, world.start_poses[0], world.targets[0], 4.0, 1.0, 0.0, 4.0)
+    >>> found, len(actions)
+    (True, 20)
+    """
+    found, poses, actions, _ = _fast.search_actions(
+        *obstacles, pose, target, move, margin, caution, cell, LIMIT, False, np.empty((0, 3))
+    )  # fmt: skip
+    return found, poses, actions
 
 
 def demonstrate(

@@ -41,12 +41,7 @@ from robonav.robot import (
     run_episodes,
 )
 from robonav.robot.simulator import check_actions
-from robonav.validation import (
-    check_array,
-    check_generator,
-    check_integer,
-    check_real,
-)
+from robonav.validation import ArrayArgument, check_generator, check_real
 
 from ._arguments import checked
 from .behaviour_cloning import learn_policy
@@ -376,7 +371,6 @@ def beta_schedule(decay: float, rounds: int) -> list[float]:
     >>> beta_schedule(0.0, 3), beta_schedule(0.5, 3)
     ([1.0, 0.0, 0.0, 0.0], [1.0, 0.5, 0.25, 0.125])
     """
-    decay = check_real("beta_decay", decay, at_least=0, at_most=1)
     return [decay**i for i in range(rounds + 1)]
 
 
@@ -387,7 +381,8 @@ class RoundSeeds(NamedTuple):
     episodes: int
 
 
-def round_seeds(seed: int | ArrayLike, rounds: int) -> list[RoundSeeds]:
+@checked
+def round_seeds(seed: ArrayArgument, rounds: int) -> list[RoundSeeds]:
     """Return the seeds of round 0, which has no episodes, and of the rounds after it.
 
     All are derived from one whole number, or are given as an array of shape (rounds + 1, 2).
@@ -399,10 +394,8 @@ def round_seeds(seed: int | ArrayLike, rounds: int) -> list[RoundSeeds]:
     [RoundSeeds(weights=3, episodes=0), RoundSeeds(weights=4, episodes=5)]
     """
     if np.ndim(seed) == 0:
-        sequence = np.random.SeedSequence(check_integer("seed", seed, at_least=0))
+        sequence = np.random.SeedSequence(seed)
         pairs = sequence.generate_state(2 * (rounds + 1)).reshape(-1, 2)
     else:
-        pairs = check_array("seed", seed, shape=(rounds + 1, 2), dtype=np.int64)
-        if pairs.min() < 0:
-            raise ValueError(f"seed must hold numbers from 0 on, got {pairs.min()}")
+        pairs = seed
     return [RoundSeeds(weights, episodes) for weights, episodes in pairs.tolist()]
