@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from robonav.mdp import policies
 from robonav.validation import (
     Rule,
     check_array,
@@ -167,6 +168,14 @@ NOT_EMPTY = {
 """Arrays that must hold something, and what."""
 
 
+TAKES_PROBABILITIES = {
+    "feature_expectations",
+    "initial_expectations",
+    "occupancy_measure",
+}
+"""Functions whose ``policy`` may be actions (S,) or probabilities (S, A), and whose bodies have probabilities."""
+
+
 def check_together(function: str, arguments: dict[str, Any]) -> None:
     """Check the shapes of the arrays, and the actions against their number."""
     sizes: dict[str, int] = {}
@@ -187,6 +196,11 @@ def check_together(function: str, arguments: dict[str, Any]) -> None:
         policy, mu = arguments["first"]
         shape = arguments["expert"].shape
         arguments["first"] = policy, check_array("first[1]", mu, shape=shape)
+    if function in TAKES_PROBABILITIES:
+        mdp = arguments["mdp"]
+        arguments["policy"] = policies.probabilities(
+            arguments["policy"], mdp.n_states, mdp.n_actions
+        )
     if function in NOT_EMPTY:
         name, what = NOT_EMPTY[function]
         if len(arguments[name]) == 0:

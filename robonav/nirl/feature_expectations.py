@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.mdp import policies
 from robonav.mdp.evaluation import policy_evaluation
 from robonav.validation import ArrayArgument
 
@@ -48,7 +47,8 @@ def action_values(mdp: RewardFreeMDP, policy: ArrayLike, weights: ArrayLike) -> 
     return rewarded.rewards + rewarded.discount * next_values  # Eq. (5.1)
 
 
-def feature_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
+@checked
+def feature_expectations(mdp: RewardFreeMDP, policy: ArrayArgument) -> Floats:
     """Feature expectations mu(s, a) = E[sum_t gamma^t f(s_t, a_t) | s, a], exactly from a model, Eq. (5.3).
 
     Take each feature as a reward. Its action values then solve the Bellman equation
@@ -72,15 +72,15 @@ def feature_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
     >>> feature_expectations(mdp, [0] * mdp.n_states).shape
     (42, 4, 4)
     """
-    pi = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
-    chain = np.einsum("sa,ast->st", pi, mdp.transitions)  # from s to s' under pi
-    features = np.einsum("sa,sak->sk", pi, mdp.features)
+    chain = np.einsum("sa,ast->st", policy, mdp.transitions)  # from s to s' under pi
+    features = np.einsum("sa,sak->sk", policy, mdp.features)
     mu = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * chain, features)  # mu(s)
     next_mu = np.einsum("ast,tk->sak", mdp.transitions, mu)  # expectation over s'
     return mdp.features + mdp.discount * next_mu  # Eq. (5.3)
 
 
-def initial_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
+@checked
+def initial_expectations(mdp: RewardFreeMDP, policy: ArrayArgument) -> Floats:
     """Feature expectations mu of a policy from the initial state.
 
     Parameters
@@ -101,8 +101,8 @@ def initial_expectations(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
     >>> initial_expectations(mdp, [0] * mdp.n_states).sum().round(2)
     np.float64(10.0)
     """
-    pi = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
-    return np.einsum("s,sa,sak->k", mdp.starts, pi, feature_expectations(mdp, policy))
+    mu = feature_expectations(mdp, policy)
+    return np.einsum("s,sa,sak->k", mdp.starts, policy, mu)
 
 
 def value_of_expectations(weights: ArrayLike, expectations: ArrayLike) -> Floats:

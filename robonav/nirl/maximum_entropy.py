@@ -37,13 +37,12 @@ from functools import wraps
 from typing import ParamSpec
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import OptimizeResult, minimize
 from scipy.special import logsumexp, softmax
 
 from robonav.counting import counted
 from robonav.errors import ConvergenceWarning
-from robonav.mdp import policies
 from robonav.mdp.convergence import warns_not_converged
 from robonav.mdp.evaluation import evaluation_residual
 from robonav.mdp.models import FiniteMDP
@@ -137,7 +136,8 @@ def soft_value_iteration(
     return SoftSolution(values, q, policy, iteration, residual, residual <= epsilon)
 
 
-def occupancy_measure(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
+@checked
+def occupancy_measure(mdp: RewardFreeMDP, policy: ArrayArgument) -> Floats:
     """The forward pass: how often a policy takes each action in each state, each time discounted by its step.
 
     The discounted number of visits d solves d(s') = p_0(s') + gamma sum_s,a d(s) pi(a | s) T(s, a, s'): a visit is a
@@ -163,11 +163,10 @@ def occupancy_measure(mdp: RewardFreeMDP, policy: ArrayLike) -> Floats:
     >>> occupancy_measure(mdp, np.zeros(42, dtype=int)).sum().round(6)
     np.float64(10.0)
     """
-    pi = policies.probabilities(policy, mdp.n_states, mdp.n_actions)
-    chain = np.einsum("sa,ast->st", pi, mdp.transitions)  # from s to s' under pi
+    chain = np.einsum("sa,ast->st", policy, mdp.transitions)  # from s to s' under pi
     arriving = chain.T  # row s': the probabilities of coming into s' from each s
     visits = np.linalg.solve(np.eye(mdp.n_states) - mdp.discount * arriving, mdp.starts)
-    return visits[:, None] * pi
+    return visits[:, None] * policy
 
 
 def causal_entropy_dual(
