@@ -68,6 +68,7 @@ from .solutions import (
     first_values,
     first_values_below,
     greedy_policy,
+    policy_to_start_from,
 )
 
 Floats = NDArray[np.float64]
@@ -190,7 +191,7 @@ def policy_iteration(
     """
     discount, states = mdp.discount, np.arange(mdp.n_states)
     transitions = np.stack([dense(matrix) for matrix in mdp.transitions])  # (A, S, S)
-    policy = first_policy(mdp, start)  # 1 and 2: towards the terminal states
+    policy = policy_to_start_from(mdp) if start is None else start  # 1 and 2
     for iteration in range(1, max_iterations + 1):  # 3 and 4: repeat
         # 5 to 8, evaluate: solve V = r_pi + gamma T_pi V  Eq. (2.5)
         of_policy = transitions[policy, states]  # T_pi (S, S): T(s, pi(s), .)

@@ -99,14 +99,26 @@ def first_policy(mdp: FiniteMDP, start: ArrayLike | None) -> Actions:
     array([1, 1, 1, 0, 0, 1, 0, 1, 1, 0, 0])
     """
     if start is None:
-        steps, shortest = undiscounted.shortest_path_policy(mdp, mdp.terminal)
-        return np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
+        return policy_to_start_from(mdp)
     policy = policies.as_deterministic_policy(
         "start", start, mdp.n_states, mdp.n_actions
     )
     if mdp.discount == 1:
         undiscounted.closed_classes(*mdp.induced_chain(policy), "start")
     return policy
+
+
+def policy_to_start_from(mdp: FiniteMDP) -> Actions:
+    """Policy (S,) that takes the shortest path to a terminal state, or the largest immediate reward if there is none.
+
+    Examples
+    --------
+    >>> from robonav.mdp import four_by_three
+    >>> policy_to_start_from(four_by_three().mdp(0.9))
+    array([1, 1, 1, 0, 0, 1, 0, 1, 1, 0, 0])
+    """
+    steps, shortest = undiscounted.shortest_path_policy(mdp, mdp.terminal)
+    return np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
 
 
 def greedy_policy(mdp: FiniteMDP, values: Floats, tolerance: float) -> Actions:

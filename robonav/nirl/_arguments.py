@@ -213,6 +213,8 @@ def check_together(function: str, arguments: dict[str, Any]) -> None:
     limit = arguments.get("n_actions", sizes.get("A"))
     if limit is not None and isinstance(actions, np.ndarray):
         check_actions(actions, limit)
+    if function in ("most_frequent", "map_uniform_prior"):
+        check_states(arguments["states"], len(arguments["actions"]))
     if "trajectory" in arguments:
         check_trajectory(arguments["trajectory"])
     if "task" in arguments and "demonstrations" in arguments:
@@ -233,6 +235,14 @@ def check_actions(actions: np.ndarray, n_actions: int) -> None:
     if len(actions) and not 0 <= actions.min() <= actions.max() < n_actions:
         raise ValueError(
             f"actions must lie between 0 and {n_actions - 1}, got {actions.min()} to {actions.max()}"
+        )
+
+
+def check_states(states: Any, n_actions: int) -> None:
+    """One state for each action taken."""
+    if len(np.asarray(states)) != n_actions:
+        raise ValueError(
+            f"states must have one row for each of the {n_actions} actions, got {len(np.asarray(states))}"
         )
 
 

@@ -115,10 +115,6 @@ def count_pairs(
 ) -> tuple[Ints, Ints]:
     """How often each action occurs in each of D different states, (D, A), and the state of each step, (M,)."""
     rows = np.asarray(states)
-    if len(rows) != np.size(actions):
-        raise ValueError(
-            f"states must have one row for each of the {np.size(actions)} actions, got {len(rows)}"
-        )
     _, which = np.unique(rows, axis=0, return_inverse=True)
     which = which.reshape(len(rows))
     counts = np.zeros((which.max() + 1, n_actions), dtype=np.int64)

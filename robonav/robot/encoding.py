@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
 
@@ -138,13 +138,6 @@ TARGET_ENCODINGS: dict[str, Callable[[ArrayLike], Floats]] = {
 TARGET_WIDTHS = {"number": 1, "signed": 1, "one-hot": SENSORS, "sine-cosine": 2}
 
 
-def _columns(sensors: Iterable[int]) -> list[int]:
-    return [
-        check_integer("sensors", sensor, at_least=1, at_most=SENSORS) - 1
-        for sensor in sensors
-    ]
-
-
 def lfd_state(sensing: Sensing) -> NDArray[np.int64]:
     """State vector of chapter 3, Eq. (3.17): 9 degrees of danger, target region, target seen.
 
@@ -240,7 +233,10 @@ class Encoder:
             raise TypeError(f"sensors must be a sequence of numbers, got {sensors!r}")
         if not isinstance(walls, bool | np.bool_):
             raise TypeError(f"walls must be True or False, got {walls!r}")
-        chosen = tuple(column + 1 for column in _columns(listed))
+        chosen = tuple(
+            check_integer("sensors", sensor, at_least=1, at_most=SENSORS)
+            for sensor in listed
+        )
         object.__setattr__(self, "sensors", chosen)
         object.__setattr__(self, "walls", bool(walls))
         check_one_of("target", self.target, TARGET_ENCODINGS)
@@ -256,7 +252,7 @@ class Encoder:
 
     def __call__(self, sensing: Sensing) -> Floats:
         """Encode what N robots sense as inputs (N, size)."""
-        columns = _columns(self.sensors)
+        columns = [sensor - 1 for sensor in self.sensors]
         parts: list[NDArray] = [
             degree_of_danger(sensing.ranges[:, columns]) / len(DANGER_BORDERS),
             TARGET_ENCODINGS[self.target](sensing.target_region),
