@@ -1,7 +1,10 @@
 """Check the code on the built pages: ``python book/_ext/check_listings.py [PAGE ...]``.
 
 A listing of the package's code has at most 40 lines of at most 88 columns. It shows no imports, no input checks and no
-warnings; its syntax tree is searched for them. A decorator may check the arguments, since it stands outside the code.
+warnings, keeps no record of its iterations, and names no parameter ``record`` that its body never reads; its syntax
+tree is searched for them. A decorator may check the arguments and keep the record, since it stands outside the code.
+The listing calls no helper of the package that checks its input: a function that a package does not export, and that
+raises an error or calls a check.
 Each numbered equation of a page has a listing on that page whose comments carry its number.
 Equations that only introduce a symbol (``symbols.toml``) need no listing. A code cell of the page that is not folded
 has at most 88 columns, and so has an exercise's file.
@@ -10,6 +13,8 @@ has at most 88 columns, and so has an exercise's file.
 from __future__ import annotations
 
 import ast
+import importlib
+import inspect
 import os
 import re
 import sys
@@ -17,6 +22,8 @@ import textwrap
 from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
+from types import FunctionType
+from typing import Any
 
 import citations
 import yaml
@@ -37,7 +44,12 @@ NAMES = {
         r"_?(?:check|validat|requir|ensur|verif)\w*|isinstance|issubclass|callable|hasattr|valid_\w+|as(?:_\w+|\w*array)"
     ),
     "a warning": re.compile(r"\w*warn\w*"),
+    "a record": re.compile(r"ValueHistory|\w*recorder|_?NOT_RECORDED"),
 }
+HELPERS_CHECK = re.compile(
+    r"_?(?:check|validat|requir|ensur|verif)\w*|valid_\w+|as_(?:\w+_)?polic\w+|as_distributions|as_belief"
+)
+"""Names of checks in a helper. A conversion by NumPy is none, since a helper may need an array to compute with."""
 CONVERSIONS = {"as_module", "as_network", "as_single_steps", "as_tensor"}
 """Names as of a check, of functions that make another kind of object and refuse nothing."""
 
@@ -47,17 +59,82 @@ def named(node: ast.AST) -> str:
     return getattr(node, "id", None) or getattr(node, "attr", None) or ""
 
 
-def plumbing(code: str) -> list[str]:
-    """Return the kinds of things in a listing that are not its algorithm: imports, input checks, warnings."""
+def undecorated_nodes(code: str) -> list[ast.AST]:
+    """Return the nodes of the syntax tree of a listing, but for its decorators."""
     tree = ast.parse(textwrap.dedent(code))
     for node in ast.walk(tree):
         if isinstance(node, citations.Definition):
             node.decorator_list.clear()
-    nodes = list(ast.walk(tree))
+    return list(ast.walk(tree))
+
+
+def plumbing(code: str) -> list[str]:
+    """Return the kinds of things in a listing that are not its algorithm: imports, input checks, warnings."""
+    nodes = undecorated_nodes(code)
     names = {named(node) for node in nodes} - CONVERSIONS
     found = {NODES[type(node)] for node in nodes if type(node) in NODES}
     found |= {kind for kind in NAMES if any(map(NAMES[kind].fullmatch, names))}
     return sorted(found)
+
+
+def unread_record(code: str) -> bool:
+    """Return whether a listing has a parameter ``record`` that its body never reads."""
+    nodes = undecorated_nodes(code)
+    parameters = {node.arg for node in nodes if isinstance(node, ast.arg)}
+    return "record" in parameters - {named(node) for node in nodes}
+
+
+def function_named(name: str) -> FunctionType | None:
+    """Return the function of the package with this dotted name, without its decorators, or None if there is none."""
+    parts = name.split(".")
+    for end in range(len(parts) - 1, 0, -1):
+        try:
+            found: Any = importlib.import_module(".".join(parts[:end]))
+        except ImportError:
+            continue
+        for part in parts[end:]:
+            found = getattr(found, part, None)
+        return undecorated(found)
+    return None
+
+
+def undecorated(found: Any) -> FunctionType | None:
+    """Return the Python function that decorators and the compiler have wrapped, or None if it is something else."""
+    inner = inspect.unwrap(found) if callable(found) else None
+    inner = getattr(inner, "py_func", inner)
+    return inner if isinstance(inner, FunctionType) else None
+
+
+def helpers(function: FunctionType, code: str) -> Iterator[FunctionType]:
+    """Yield the functions of the package that a listing calls and that no package exports."""
+    seen = set()
+    for node in undecorated_nodes(code):
+        called = node.func if isinstance(node, ast.Call) else None
+        names = function.__globals__
+        if isinstance(called, ast.Attribute):
+            module = names.get(named(called.value))
+            names = vars(module) if inspect.ismodule(module) else {}
+        helper = undecorated(names.get(named(called))) if called else None
+        if helper and helper not in seen and not exported(helper):
+            seen.add(helper)
+            yield helper
+
+
+def exported(function: FunctionType) -> bool:
+    """Return whether a function is public in its package, or does not belong to robonav at all."""
+    package, _, _ = function.__module__.rpartition(".")
+    if not package.startswith("robonav"):
+        return True
+    return function.__name__ in getattr(importlib.import_module(package), "__all__", ())
+
+
+def checks_input(helper: FunctionType) -> bool:
+    """Return whether the body of a helper raises an error or calls a check."""
+    return any(
+        isinstance(node, ast.Raise)
+        or (isinstance(node, ast.Call) and HELPERS_CHECK.fullmatch(named(node.func)))
+        for node in undecorated_nodes(inspect.getsource(helper))
+    )
 
 
 @lru_cache(maxsize=4)
@@ -110,6 +187,12 @@ def faults(html: str) -> Iterator[str]:
             yield f"{name} has {widest} columns"
         for kind in plumbing(text):
             yield f"{name} shows {kind}"
+        if unread_record(text):
+            yield f"{name} has a parameter record that its body never reads"
+        function = function_named(name)
+        for helper in helpers(function, text) if function else ():
+            if checks_input(helper):
+                yield f"{name} calls {helper.__name__}, which checks its input"
         listed |= citations.cited("equations", text)
     for number in equations:
         if citations.key(number) not in listed:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import FunctionType
+from typing import Any
 
 import pytest
-from check_listings import faults, wide_cells, wide_stubs
+from check_listings import checks_input, faults, helpers, wide_cells, wide_stubs
 
 
 def test_listings_of_page(page_name: str, site: Path) -> None:
@@ -71,6 +73,12 @@ def test_equation_of_the_page_itself_needs_no_listing() -> None:
         ("b = self.as_belief(belief)", CHECK),
         ("v = np.asarray(start)", CHECK),
         ("v, w = map(np.asarray, (v, w))", CHECK),
+        ("history = ValueHistory(True)", "shows a record"),
+        ("step(_NOT_RECORDED)", "shows a record"),
+        (
+            "def f(mdp, *, record=False):\n    return mdp.values",
+            "has a parameter record that its body never reads",
+        ),
         ("    _warn_not_settled(3)", WARNING),
         ("warnings.warn('slow')", WARNING),
     ],
@@ -94,6 +102,38 @@ def test_listing_fault(code: str, fault: str) -> None:
 )
 def test_listing_without_fault(code: str) -> None:
     assert list(faults(listing(code))) == []
+
+
+HELPERS = """
+from robonav.mdp import policies, policy_evaluation
+from robonav.mdp.evaluation import error_limit
+from robonav.mdp.solutions import starting_values
+"""
+
+
+@pytest.mark.parametrize(
+    ("code", "called"),
+    [
+        ("v = starting_values('start', mdp, start)", ["starting_values"]),
+        ("pi = policies.probabilities(policy, 2, 3)", ["probabilities"]),
+        ("v = error_limit(mdp, 0.1)", []),
+        ("v = policy_evaluation(mdp, policy)", []),  # public: it checks its own input
+        ("@starting_values\ndef f(v):\n    return v", []),
+    ],
+)
+def test_helper_that_checks_its_input(code: str, called: list[str]) -> None:
+    names: dict[str, Any] = {}
+    exec(HELPERS, names)
+    shown = FunctionType(compile("", "f", "exec"), names)
+    found = [f.__name__ for f in helpers(shown, code) if checks_input(f)]
+    assert found == called
+
+
+def test_listing_that_calls_a_check_by_another_name() -> None:
+    code = "pi = policies.probabilities(policy, 2, 3)"
+    page = listing(code).replace("robonav.f", "robonav.nirl.RewardFreeMDP.rollout")
+    name = "robonav.nirl.RewardFreeMDP.rollout"
+    assert list(faults(page)) == [f"{name} calls probabilities, which checks its input"]
 
 
 def cell(code: str) -> str:
