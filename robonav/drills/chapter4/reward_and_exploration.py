@@ -201,9 +201,10 @@ def parts_of_an_episode(rng: Rng) -> Question:
     rate = float(rng.choice([0.1, 0.2, 0.5]))
     states = [int(n) for n in rng.choice(20, size=3, replace=False)]
     actions = [str(name) for name in rng.choice(["F", "L30", "R30", "L60"], size=2)]
-    old, following = rng.choice(np.arange(1, 10), size=(2, 2)) / 10
+    chosen, largest = np.sort(rng.integers(1, 10, size=2)) / 10  # in the second state
+    old = float(rng.integers(1, 10)) / 10, chosen
     reward = float(rng.choice([-0.1, 0.0, 0.1]))
-    targets = [reward + discount * following[0], 1.0]
+    targets = [reward + discount * largest, 1.0]
     new = [
         float(nnql.q_targets(np.array([q]), 0, target, 0.0, rate, 0.0)[0])
         for q, target in zip(old, targets, strict=True)
@@ -234,7 +235,7 @@ def parts_of_an_episode(rng: Rng) -> Question:
     return Question(
         "Q-learning updates a value after each step, before it chooses the next action, with "
         f"$\\gamma = {discount:g}$ and $\\alpha = {rate:g}$. In an episode of two steps the robot is in the states "
-        f"{states[0]}, {states[1]} and {states[2]}. The largest value in the state {states[1]} is ${following[0]:g}$. "
+        f"{states[0]}, {states[1]} and {states[2]}. The largest value in the state {states[1]} is ${largest:g}$. "
         "Put these lines of the run in order.",
         asked,
         f"Reset, choose, step, target, update, and again from the next state on. {as_list(asked)}",
