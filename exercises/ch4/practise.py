@@ -8,12 +8,13 @@
 r"""An open task: let a robot learn by trial and error. The check makes a small network
 with random weights, whose five outputs are to become the values $Q(s, a)$ of five
 actions. Then robots practise in five rounds, each in 60 new worlds with ten obstacles.
-Where nothing is near, a robot turns to its target and goes. Elsewhere it takes a random
-action, always in the first round and in every tenth step in the last, or else the
-action of the largest output. After each round your function gets the weights and all
-steps so far, and returns better weights. Nobody gives a reward: a step only says how
-the episode went on. So you choose the reward, the discount, the target of a step, and
-how the network is trained: Q-learning, fitted Q iteration, NNQL, or what you like.
+Where nothing is near, a robot turns to its target and goes. Elsewhere it takes the
+action of the largest output or a random one: always a random one in the first round,
+less often in the next two, and in one step of ten in the last two. After each round
+your function gets the weights and all steps so far, and returns better weights. Nobody
+gives a reward: a step only says how the episode went on. So you choose the reward, the
+discount, the target of a step, and how the network is trained: Q-learning, fitted Q
+iteration, NNQL, or what you like.
 
 Nobody knows in which order the sensors and the motors of a robot are wired, and which
 of its inputs have the opposite sign, so that weights found for one robot are of no use

@@ -5,9 +5,9 @@ r"""A reward like the chapter's can be exploited: if every step away from an obs
 rewarded, a robot may go to and fro in front of it. Ng, Harada and Russell (1999) found
 the additional rewards that leave the optimal policy unchanged. Give every state a
 potential $\Phi(s)$, and add $\gamma \Phi(s') - \Phi(s)$ to the reward of each step.
-The potential after the last step counts as zero. In the discounted return of a whole
-episode the additions cancel except for the potential of the first state, so the optimal
-policy remains optimal. Shape the rewards of an episode.
+The potential after a step that ends the episode counts as zero. In the discounted
+return of a whole episode the additions cancel except for the potential of the first
+state, so the optimal policy remains optimal. Shape the rewards of an episode.
 """
 
 import numpy as np

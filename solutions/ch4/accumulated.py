@@ -1,10 +1,11 @@
 r"""After each step the chapter's NNQL trains on all pairs of the episode so far, with
 the targets computed when each pair was new. Follow one recorded episode with a learner
 that is simple enough to check by hand. It is linear, $Q(s, a) = w_a \cdot \phi(s)$,
-with initial weights of zero. After each step compute the target of the new pair: the
-reward plus the discounted largest value of the next state under the present weights.
-Then go once through all pairs so far, oldest first, and change each pair's $w_a$ by
-$\sigma \, (\text{target} - w_a \cdot \phi(s)) \, \phi(s)$.
+with initial weights of zero. After each step compute the target of the new pair, with
+$\alpha = 1$: the reward plus the discounted largest value of the next state under the
+present weights. Then go once through all pairs so far, oldest first. Each pair changes
+the weights $w_a$ of its action by $\sigma \, (\text{target} - w_a \cdot \phi(s)) \,
+\phi(s)$.
 """
 
 import numpy as np

@@ -1,11 +1,17 @@
 """An open task: cure a robot that circles. As in the chapter, the reward of a step
 depends on how dangerous the place before it was and how dangerous the place after it
-is. Somebody has raised one or two rewards of the table a little, and a robot that
-learns perfectly now goes round and round instead of arriving. Lower as few rewards as
-possible, by as much as is needed, and leave those for arrivals and collisions alone.
+is. No way back to the same place earned anything, until somebody raised one or two
+rewards of the table by 0.2 to 0.4. A robot that learns perfectly now goes round and
+round instead of arriving. Lower as few rewards as possible, until no round earns
+anything but no further, or a collision may cost less than the way. Leave the rewards
+for arrivals and collisions alone.
+
 The check plans with your table and the discount 0.95 in random grids of nine by nine
-cells, lets the robot drive from every cell, and counts arrivals. Think first: which
-ways back to the same place are there, and what does one round of each earn?
+cells. A step leads one cell right, down, left or up; against the edge the robot stays
+where it is. The eight cells around an obstacle are dangerous, the next ring is cozy,
+and all others are safe. From every cell the robot has to arrive about as often as
+with the table as it was. Think first: which ways back to the same place are there, and
+what does one round of each earn?
 """
 
 import numpy as np

@@ -5,7 +5,8 @@ the weights of the last iteration: its cost plus the discounted *smallest* value
 next state; the cost alone if the goal was reached; and exactly 1, the largest cost, if
 the robot failed. Then fit the weights of each action to the targets of its steps by
 ridge regression, which minimises $\sum (w \cdot \phi - \text{target})^2 + \rho
-\lVert w \rVert^2$. The weights of an action that was never taken stay zero.
+\lVert w \rVert^2$. The weights of an action that was never taken stay zero, and its
+value 0 counts like any other.
 """
 
 import numpy as np
