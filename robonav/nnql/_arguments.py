@@ -6,7 +6,9 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, ParamSpec, TypeVar
 
+import gymnasium
 import numpy as np
+from gymnasium.spaces import flatdim
 
 from robonav.documentation import documents
 from robonav.networks.multilayer_perceptron import Network
@@ -159,7 +161,26 @@ def check_update(function: str, arguments: dict[str, Any]) -> None:
         )
 
 
-checked_arguments = checks(RULES, check_update)
+def check_together(function: str, arguments: dict[str, Any]) -> None:
+    """Check the arguments that depend on each other: an update's arrays, or a learner's network and environment."""
+    check_update(function, arguments)
+    if function in LEARNERS:
+        check_sizes(arguments["network"].sizes, arguments["env"])
+
+
+def check_sizes(sizes: tuple[int, ...], env: gymnasium.Env[Any, Any]) -> None:
+    """Check that a network has one input for each number of a state, and one output for each action."""
+    states, actions = flatdim(env.observation_space), flatdim(env.action_space)
+    if (sizes[0], sizes[-1]) != (states, actions):
+        raise ValueError(
+            f"network must take the {states} numbers of a state and give {actions} actions, got sizes {sizes}"
+        )
+
+
+LEARNERS = ("nnql", "online", "nfq", "dqn")
+"""Functions whose network is trained in an environment."""
+
+checked_arguments = checks(RULES, check_together)
 """Decorate a function so that its arguments are checked by these rules before it runs."""
 
 documented = documents(

@@ -185,6 +185,19 @@ def test_wrong_argument(wrong, message):
         nnql(**(right | wrong))
 
 
+@pytest.mark.parametrize("learn", [nnql, online, nfq, dqn])
+@pytest.mark.parametrize("sizes", [(5, 8, 2), (4, 8, 3)])
+def test_network_that_does_not_fit_the_environment(learn, sizes):
+    message = r"network must take the 4 numbers of a state and give 2 actions, got"
+    with pytest.raises(ValueError, match=message):
+        learn(
+            gymnasium.make("CartPole-v1"),
+            random_network(sizes, seed=0),
+            episodes=1,
+            seed=0,
+        )
+
+
 def test_environment_that_no_network_reads():
     class Words(Corridor):
         observation_space = gymnasium.spaces.Sequence(gymnasium.spaces.Discrete(5))
