@@ -75,9 +75,11 @@ def control(name: str, seeds: tuple[int, ...], scale: str) -> PPOResult:
 
 def run(case: Case, seed: int, scale: str) -> Numbers:
     """Test one seed after one stage, or after one control, in new worlds."""
-    train = trained if "stage" in case else control
-    name = case["stage"] if "stage" in case else case["control"]
-    result = train(str(name), tuple(range(SEEDS[scale])), scale)
+    seeds = tuple(range(SEEDS[scale]))
+    if "stage" in case:
+        result = trained(str(case["stage"]), seeds, scale)
+    else:
+        result = control(str(case["control"]), seeds, scale)
     worlds = SETUP.test_worlds(seed, scale, **SETTINGS[str(case["setting"])])
     return SETUP.evaluate(result.policies[seed], worlds)
 

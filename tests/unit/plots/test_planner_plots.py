@@ -30,10 +30,15 @@ def test_longest_force_fills_the_picture(axes, sensing):
     assert len(tips) == 2 + seeing
 
 
-def test_bars_are_blocked_or_masked(axes, sensing):
+@pytest.mark.parametrize("behind", [True, False])
+def test_bars_are_blocked_or_masked(axes, behind):
+    """The legend has no entry for bars that are not there."""
+    circles = [(54, 50, 2), (46, 50, 2)] if behind else [(54, 50, 2)]
+    sensing = sense(make_world(circles=circles), [(50, 50, 0)])
     draw.draw_histogram(axes, sensing, VectorFieldHistogram())
     labels = axes.get_legend_handles_labels()[1]
-    assert {"masked", "blocked", "threshold", "target", "chosen"} == set(labels)
+    masked = {"masked"} if behind else set()
+    assert {"blocked", "threshold", "target", "chosen"} | masked == set(labels)
     blocked = next(c for c in axes.containers if c.get_label() == "blocked")
     assert all(bar.get_height() >= VectorFieldHistogram().threshold for bar in blocked)
 
