@@ -47,7 +47,7 @@ def answer_wrongly_and_rightly(hand: Hand, drill: Locator, name: str) -> None:
     shown = shown_by(drill)
     assert (shown["verdict"], shown["solved"]) == ("Right.", True)
     assert shown["standing"] == "not mastered yet"  # the first answer counts
-    assert shown["overhang"] <= 1
+    assert shown["overhang"] <= 1, (name, shown)
 
 
 @pytest.mark.parametrize("page_of_drills", PAGES_WITH_DRILLS)

@@ -22,7 +22,8 @@ def speed_of_a_wheel(rng: Rng) -> Question:
         turn, forward = 1.0, 1.5
     angle = math.radians(ANGLES[wheel])
     rim = -math.sin(angle) * forward + math.cos(angle) * left
-    answer = (rim + 0.7 * turn) / 0.2
+    speed = rim + 0.7 * turn
+    answer = speed / 0.2
     return Question(
         f"A wheel with a radius of 0.2 m is 0.7 m from the middle of its base, in the direction $\\alpha = "
         f"{ANGLES[wheel]}°$. The base drives forward at ${forward:g}$ m/s and to the left at ${left:g}$ m/s, and turns "
@@ -32,14 +33,13 @@ def speed_of_a_wheel(rng: Rng) -> Question:
             tolerance=0.051,
             unit="rad/s",
             wrong={
-                "This is the speed of the rim, in m/s. Divide it by the radius of the wheel.": rim
-                + 0.7 * turn,
+                "This is the speed of the rim, in m/s. Divide it by the radius of the wheel.": speed,
                 "The turn of the base is missing.": rim / 0.2,
                 "The turn of the base has the wrong sign.": (rim - 0.7 * turn) / 0.2,
             },
         ),
-        f"$(-\\sin {ANGLES[wheel]}° \\cdot {forward:g} + \\cos {ANGLES[wheel]}° \\cdot {left:g} + 0.7 \\cdot {turn:g}) "
-        f"/ 0.2 = {answer:.3g}$ rad/s.",
+        f"The rim moves at $-\\sin {ANGLES[wheel]}° \\cdot {forward:g}$ $+ \\cos {ANGLES[wheel]}° \\cdot {left:g}$ "
+        f"$+ 0.7 \\cdot {turn:g} = {speed:.4g}$ m/s, and the wheel turns at ${speed:.4g} / 0.2 = {answer:.3g}$ rad/s.",
     )
 
 
