@@ -169,8 +169,9 @@ def class_course(
     ValueError: --each-student needs --variant
     """
     from . import variants
+    from .course import Course
 
-    course = _books_course()
+    course = Course.of_checkout()
     if each_student and variant is None:
         raise ValueError("--each-student needs --variant")
     if variant is None:
@@ -194,7 +195,8 @@ def check_roster_and_rules(out: Path, roster: Path | None, course: Course) -> No
     >>> import tempfile
     >>> out = Path(tempfile.mkdtemp())
     >>> _ = (out / "rules.toml").write_text("[late]\\npenalty = -1\\n")
-    >>> check_roster_and_rules(out, None, _books_course())
+    >>> from robonav.grading.course import Course
+    >>> check_roster_and_rules(out, None, Course.of_checkout())
     Traceback (most recent call last):
     ValueError: ...: penalty must be a number from 0 to 100, got -1
     """
@@ -218,7 +220,8 @@ def grading_config(
 
     Examples
     --------
-    >>> grading_config(_books_course(), None, None, practice=True).secret
+    >>> from robonav.grading.course import Course
+    >>> grading_config(Course.of_checkout(), None, None, practice=True).secret
     b''
     """
     from . import sandbox_check
@@ -428,19 +431,12 @@ def _book(folder: Path) -> Gradebook:
     return read_gradebook(folder, _course(folder))
 
 
-def _books_course() -> Course:
-    """Return the course of the checkout. The current folder counts only if the package stands in none."""
-    from .course import Course
-
-    return Course.around(Path(__file__).parent, Path.cwd())
-
-
 def _course(folder: Path) -> Course:
     """Return the course with which a class was graded."""
     from .course import Course
     from .variants import MARK
 
-    course = _books_course()
+    course = Course.of_checkout()
     if (folder / "exercises" / MARK).is_file():
         course = Course((folder / "exercises").resolve())  # of robonav grade --variant
     return course
@@ -470,13 +466,14 @@ def similarity(
     """Show the pairs of submissions that are too alike, side by side. No code is run."""
     from tempfile import TemporaryDirectory
 
+    from .course import Course
     from .variants import write
 
     if variant is None:
-        tell_similar(folder, out, _books_course())
+        tell_similar(folder, out, Course.of_checkout())
         return
     with TemporaryDirectory() as place:
-        tell_similar(folder, out, write(_books_course(), variant, Path(place)))
+        tell_similar(folder, out, write(Course.of_checkout(), variant, Path(place)))
 
 
 def tell_similar(folder: Path, out: Path, course: Course) -> None:

@@ -159,7 +159,7 @@ def _book(course: Course) -> Course:
     """Return the course itself, or the book's if the course is a variant, which has no honest answers."""
     if course.solutions.joinpath(HONEST).is_dir():
         return course
-    return Course.around(Path(__file__).parent, Path.cwd())
+    return Course.of_checkout()
 
 
 def honest_answers(course: Course, id: str) -> list[Fingerprint]:

@@ -40,12 +40,10 @@ def check_seeds(name: str, seed: Any, rounds: int) -> Any:
 
 def check_together(function: str, arguments: dict[str, Any]) -> None:
     """Check the seeds of DAgger's rounds, whose shape follows from the number of rounds."""
-    if function == "dagger":
-        rounds = len(arguments["rounds"])
-        arguments["seed"] = check_seeds("seed", arguments["seed"], rounds)
-    if function == "round_seeds":
+    if function in ("dagger", "round_seeds"):
         rounds = arguments["rounds"]
-        arguments["seed"] = check_seeds("seed", arguments["seed"], rounds)
+        number = rounds if function == "round_seeds" else len(rounds)
+        arguments["seed"] = check_seeds("seed", arguments["seed"], number)
 
 
 checked = checks(

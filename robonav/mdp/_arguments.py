@@ -104,10 +104,9 @@ def check_by_model(function: str, arguments: dict[str, Any]) -> None:
         for name in CHECKING_METHODS.keys() & arguments.keys():
             arguments[name] = getattr(model, CHECKING_METHODS[name])(arguments[name])
     if function in STARTING_VALUES:
-        name, states = STARTING_VALUES[function], arguments["mdp"].n_states
+        name, mdp = STARTING_VALUES[function], arguments["mdp"]
         if arguments[name] is not None:
-            given = check_array(name, arguments[name], shape=(states,))
-            arguments[name] = given.copy()
+            arguments[name] = check_state_values(name, arguments[name], mdp.n_states)
     if function == "expected_return":
         states = arguments["mdp"].n_states
         arguments["start"] = as_distributions("start", arguments["start"], states)
@@ -119,6 +118,11 @@ def check_by_model(function: str, arguments: dict[str, Any]) -> None:
             shape = [getattr(arguments["mdp"], size) for size in MODEL_ARRAYS[name]]
             if arguments[name] is not None:
                 arguments[name] = check_array(name, arguments[name], shape=shape)
+
+
+def check_state_values(name: str, given: Any, states: int) -> NDArray[Any]:
+    """Check that there is one value for each state, and return a copy of the values."""
+    return check_array(name, given, shape=(states,)).copy()
 
 
 def beliefs_to_back_up(mdp: Any, beliefs: Any) -> NDArray[Any]:

@@ -248,9 +248,7 @@ def iterative_policy_evaluation(
     epsilon = evaluation_residual(mdp, tolerance)
     for iteration in range(1, max_iterations + 1):  # 5: repeat
         previous = values
-        values = rewards + mdp.discount * (
-            transitions @ previous
-        )  # 6 and 7  Eq. (2.24)
+        values = rewards + mdp.discount * (transitions @ previous)  # 6, 7  Eq. (2.24)
         residual = abs(values - previous).max()
         if residual <= epsilon:  # 8
             break

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.validation import check_array
-
 from . import policies, undiscounted
+from ._arguments import check_state_values
 from .models import FiniteMDP
 
 Floats = NDArray[np.float64]
@@ -64,7 +63,7 @@ def starting_values(name: str, mdp: FiniteMDP, given: ArrayLike | None) -> Float
     """
     if given is None:
         return np.zeros(mdp.n_states)
-    return check_array(name, given, shape=(mdp.n_states,)).copy()
+    return check_state_values(name, given, mdp.n_states)
 
 
 def first_values(

@@ -114,149 +114,6 @@ class IRLResult:
     network: Network
 
 
-class IRLRecorder:
-    """The record of a training: it takes in each iteration, and makes the result at the end.
-
-    Parameters
-    ----------
-    demonstrations : Decisions
-        M decisions of the expert. Every network is scored by how well it predicts them.
-    task : Task
-        The task on which the network trains.
-    network : Network
-        The network before the first iteration.
-    inverse_temperature : float
-        eta of Eq. (5.10).
-    iterations : int
-        Iterations at most.
-    progress : callable, optional
-        Called as ``progress(done, iterations)`` after each iteration.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from robonav.networks import random_network
-    >>> from robonav.nirl import TabularTask, accuracy, terrain
-    >>> from robonav.nirl.training import IRLRecorder
-    >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
-    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
-    >>> recorder = IRLRecorder(expert, task, network, inverse_temperature=25.0, iterations=1)
-    >>> recorder.add(expert, np.zeros((4, 43)), network, cost=0.7)
-    >>> recorder.result(accuracy).history.costs
-    array([0.7])
-    """
-
-    def __init__(
-        self,
-        demonstrations: Decisions,
-        task: Task,
-        network: Network,
-        inverse_temperature: float,
-        iterations: int,
-        progress: Progress | None = None,
-    ) -> None:
-        self._demonstrations, self._task = demonstrations, task
-        self._inverse_temperature = inverse_temperature
-        self._iterations, self._progress = iterations, progress
-        self._networks = [network]
-        self._episodes: list[Decisions] = []
-        self._weights: list[Floats] = []
-        self._margins: list[float] = []
-        self._costs: list[float] = []
-
-    def add(
-        self, episodes: Decisions, theta: Floats, network: Network, cost: float
-    ) -> None:
-        """Record an iteration: its episodes, its reward, the network after it, and the cost.
-
-        Parameters
-        ----------
-        episodes : Decisions
-            The episodes of the iteration.
-        theta : (A, k + 1) array
-            Its reward weights.
-        network : Network
-            The network after it.
-        cost : float
-            The cost of the network.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> from robonav.networks import random_network
-        >>> from robonav.nirl import TabularTask, terrain
-        >>> from robonav.nirl.training import IRLRecorder
-        >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
-        >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
-        >>> counts = []
-        >>> def progress(done, all_of_them):
-        ...     counts.append((done, all_of_them))
-        >>> recorder = IRLRecorder(expert, task, network, 25.0, iterations=1, progress=progress)
-        >>> recorder.add(expert, np.zeros((4, 43)), network, cost=0.7)
-        >>> counts
-        [(1, 1)]
-        """
-        policy = exploring_policy(self._networks[-1], self._inverse_temperature)
-        probabilities = policy(self._demonstrations.inputs)
-        self._margins.append(expert_margin(self._demonstrations, probabilities, theta))
-        self._episodes.append(episodes)
-        self._weights.append(theta)
-        self._networks.append(network)
-        self._costs.append(cost)
-        if self._progress is not None:
-            self._progress(len(self._costs), self._iterations)
-
-    def result(self, score: Score) -> IRLResult:
-        """The network that predicts the demonstrations best, and the history.
-
-        Parameters
-        ----------
-        score : callable
-            ``score(predicted, actions)``, such as :func:`accuracy`.
-
-        Returns
-        -------
-        IRLResult
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> from robonav.networks import random_network
-        >>> from robonav.nirl import TabularTask, accuracy, terrain
-        >>> from robonav.nirl.training import IRLRecorder
-        >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
-        >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
-        >>> recorder = IRLRecorder(expert, task, network, inverse_temperature=25.0, iterations=1)
-        >>> recorder.add(expert, np.zeros((4, 43)), network, cost=0.7)
-        >>> recorder.result(accuracy).history.costs
-        array([0.7])
-        """
-        expert = self._demonstrations
-        predictions = [greedy_actions(net, expert.inputs) for net in self._networks]
-        scores = [score(predicted, expert.actions) for predicted in predictions]
-        chosen = int(np.argmax(scores))
-        n, shape = len(self._weights), (self._task.n_actions, expert.features.shape[1])
-        weights = np.array(self._weights).reshape(n, *shape)
-        history = IRLHistory(
-            networks=stacked(self._networks),
-            weights=weights,
-            margins=np.array(self._margins),
-            costs=np.array(self._costs),
-            arrived=np.array([part.arrived.mean() for part in self._episodes]),
-            collided=np.array([part.collided.mean() for part in self._episodes]),
-            decisions=np.array([len(part) for part in self._episodes], dtype=np.int64),
-            accuracies=np.array([accuracy(p, expert.actions) for p in predictions]),
-            balanced=np.array(
-                [balanced_accuracy(p, expert.actions) for p in predictions]
-            ),
-        )
-        network = self._networks[chosen]
-        trained_for = weights[max(chosen - 1, 0)] if n else np.zeros(shape)
-        return IRLResult(
-            self._task.greedy_policy(network), trained_for, history, chosen, network
-        )
-
-
 @dataclass(frozen=True, eq=False)
 class Iteration:
     """What an algorithm yields after each of its iterations.
@@ -286,6 +143,139 @@ class Iteration:
     theta: Floats
     network: Network
     cost: float
+
+
+class IRLRecorder:
+    """The record of a training: it takes in each iteration, and makes the result at the end.
+
+    Parameters
+    ----------
+    demonstrations : Decisions
+        M decisions of the expert. Every network is scored by how well it predicts them.
+    task : Task
+        The task on which the network trains.
+    network : Network
+        The network before the first iteration.
+    inverse_temperature : float
+        eta of Eq. (5.10).
+    iterations : int
+        Iterations at most.
+    progress : callable, optional
+        Called as ``progress(done, iterations)`` after each iteration.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.networks import random_network
+    >>> from robonav.nirl import Iteration, TabularTask, accuracy, terrain
+    >>> from robonav.nirl.training import IRLRecorder
+    >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
+    >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+    >>> recorder = IRLRecorder(expert, task, network, inverse_temperature=25.0, iterations=1)
+    >>> recorder.add(Iteration(expert, np.zeros((4, 43)), network, cost=0.7))
+    >>> recorder.result(accuracy).history.costs
+    array([0.7])
+    """
+
+    def __init__(
+        self,
+        demonstrations: Decisions,
+        task: Task,
+        network: Network,
+        inverse_temperature: float,
+        iterations: int,
+        progress: Progress | None = None,
+    ) -> None:
+        self._demonstrations, self._task = demonstrations, task
+        self._inverse_temperature = inverse_temperature
+        self._most, self._progress = iterations, progress
+        self._networks = [network]
+        self._iterations: list[Iteration] = []
+        self._margins: list[float] = []
+
+    def add(self, iteration: Iteration) -> None:
+        """Record an iteration.
+
+        Parameters
+        ----------
+        iteration : Iteration
+            Its episodes, its reward, the network after it, and the cost.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.networks import random_network
+        >>> from robonav.nirl import Iteration, TabularTask, terrain
+        >>> from robonav.nirl.training import IRLRecorder
+        >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
+        >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+        >>> counts = []
+        >>> def progress(done, all_of_them):
+        ...     counts.append((done, all_of_them))
+        >>> recorder = IRLRecorder(expert, task, network, 25.0, iterations=1, progress=progress)
+        >>> recorder.add(Iteration(expert, np.zeros((4, 43)), network, cost=0.7))
+        >>> counts
+        [(1, 1)]
+        """
+        policy = exploring_policy(self._networks[-1], self._inverse_temperature)
+        probabilities = policy(self._demonstrations.inputs)
+        margin = expert_margin(self._demonstrations, probabilities, iteration.theta)
+        self._margins.append(margin)
+        self._networks.append(iteration.network)
+        self._iterations.append(iteration)
+        if self._progress is not None:
+            self._progress(len(self._iterations), self._most)
+
+    def result(self, score: Score) -> IRLResult:
+        """The network that predicts the demonstrations best, and the history.
+
+        Parameters
+        ----------
+        score : callable
+            ``score(predicted, actions)``, such as :func:`accuracy`.
+
+        Returns
+        -------
+        IRLResult
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from robonav.networks import random_network
+        >>> from robonav.nirl import Iteration, TabularTask, accuracy, terrain
+        >>> from robonav.nirl.training import IRLRecorder
+        >>> task, network = TabularTask(terrain()[1]), random_network((42, 5, 4), seed=0)
+        >>> expert = task.demonstrate(np.zeros(42, dtype=int), 1, seed=0)
+        >>> recorder = IRLRecorder(expert, task, network, inverse_temperature=25.0, iterations=1)
+        >>> recorder.add(Iteration(expert, np.zeros((4, 43)), network, cost=0.7))
+        >>> recorder.result(accuracy).history.costs
+        array([0.7])
+        """
+        expert = self._demonstrations
+        predictions = [greedy_actions(net, expert.inputs) for net in self._networks]
+        scores = [score(predicted, expert.actions) for predicted in predictions]
+        chosen = int(np.argmax(scores))
+        made = self._iterations
+        n, shape = len(made), (self._task.n_actions, expert.features.shape[1])
+        weights = np.array([one.theta for one in made]).reshape(n, *shape)
+        history = IRLHistory(
+            networks=stacked(self._networks),
+            weights=weights,
+            margins=np.array(self._margins),
+            costs=np.array([one.cost for one in made]),
+            arrived=np.array([one.episodes.arrived.mean() for one in made]),
+            collided=np.array([one.episodes.collided.mean() for one in made]),
+            decisions=np.array([len(one.episodes) for one in made], dtype=np.int64),
+            accuracies=np.array([accuracy(p, expert.actions) for p in predictions]),
+            balanced=np.array(
+                [balanced_accuracy(p, expert.actions) for p in predictions]
+            ),
+        )
+        network = self._networks[chosen]
+        trained_for = weights[max(chosen - 1, 0)] if n else np.zeros(shape)
+        return IRLResult(
+            self._task.greedy_policy(network), trained_for, history, chosen, network
+        )
 
 
 def training_method(
@@ -333,9 +323,7 @@ def training_method(
             settings["inverse_temperature"], settings["iterations"], progress,
         )  # fmt: skip
         for iteration in algorithm(**settings, network=network, rng=rng):
-            recorder.add(
-                iteration.episodes, iteration.theta, iteration.network, iteration.cost
-            )
+            recorder.add(iteration)
         return recorder.result(score)
 
     train.__signature__ = signature  # type: ignore[attr-defined]

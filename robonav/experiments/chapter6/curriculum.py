@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -48,28 +48,31 @@ def task(worlds: Mapping[str, int]) -> NavigationTask:
 @cache
 def trained(stage: str, seeds: tuple[int, ...], scale: str) -> PPOResult:
     """Train some seeds at once up to the end of a stage; a seed trains as it would alone."""
-    number = list(STAGES).index(stage)
-    before = list(STAGES)[:number]
-    start = trained(before[-1], seeds, scale) if before else None
-    worlds, settings = STAGES[stage]
-    updates = settings["updates"][scale]
-    return train_ppo(
-        [seed + SEEDS_APART * number for seed in seeds],
-        task=task(worlds), hidden=HIDDEN, start=start, **{**settings, "updates": updates},
-    )  # fmt: skip
+    before = list(STAGES)[: list(STAGES).index(stage)]
+    return continued(before, *STAGES[stage], seeds, scale)
 
 
 @cache
 def control(name: str, seeds: tuple[int, ...], scale: str) -> PPOResult:
     """Train some seeds at once as a control, which changes less than a stage does."""
-    before, worlds = CONTROLS[name]
-    settings = CONDITIONS["curriculum-2"]
+    last, worlds = CONTROLS[name]
+    before = list(STAGES)[: list(STAGES).index(last) + 1]
+    return continued(before, worlds, CONDITIONS["curriculum-2"], seeds, scale)
+
+
+def continued(
+    before: Sequence[str],
+    worlds: Mapping[str, int],
+    settings: Mapping[str, Any],
+    seeds: tuple[int, ...],
+    scale: str,
+) -> PPOResult:
+    """Train in some worlds, from the networks of the last of the stages before, or from random ones."""
+    start = trained(before[-1], seeds, scale) if before else None
     updates = settings["updates"][scale]
-    number = list(STAGES).index(before) + 1
     return train_ppo(
-        [seed + SEEDS_APART * number for seed in seeds],
-        task=task(worlds), hidden=HIDDEN, start=trained(before, seeds, scale),
-        **{**settings, "updates": updates},
+        [seed + SEEDS_APART * len(before) for seed in seeds],
+        task=task(worlds), hidden=HIDDEN, start=start, **{**settings, "updates": updates},
     )  # fmt: skip
 
 

@@ -228,6 +228,6 @@ def second(
         else:
             c, s = math.cos(poses[i, 2]), math.sin(poses[i, 2])
         look(
-            j, i, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
+            j, i, i, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
         )  # fmt: skip
     report(start, stop, robots, keys, steps, noise, ranges, walls)

@@ -222,12 +222,15 @@ def report(start, stop, robots, keys, steps, noise, ranges, walls):
 
 @inlined
 def look(
-    j, i, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
+    j, i, world, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
 ):  # fmt: skip
-    """Put what robot i reads into row j, its ranges still to be rounded; ``c`` and ``s`` belong to its heading."""
+    """Put what robot i of a world reads into row j, its ranges still to be rounded.
+
+    ``c`` and ``s`` belong to its heading. The row keeps what it holds where nothing nearer is seen.
+    """
     x, y, heading = poses[i, 0], poses[i, 1], poses[i, 2]
     sense_obstacles(
-        j, i, kinds, shapes, centres, x, y, heading, c, s, near, number, ranges
+        j, world, kinds, shapes, centres, x, y, heading, c, s, near, number, ranges
     )
     if min(x, size - x, y, size - y) < SENSOR_RANGE:
         sense_borders(j, size, x, y, c, s, ranges, walls)
@@ -257,7 +260,7 @@ def sense(
         )  # fmt: skip
         c, s = math.cos(poses[i, 2]), math.sin(poses[i, 2])
         look(
-            j, i, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
+            j, i, i, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
         )  # fmt: skip
     report(start, stop, robots, keys, steps, noise, ranges, walls)
 

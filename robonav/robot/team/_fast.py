@@ -30,13 +30,10 @@ from .._fast.geometry import (
 )
 from .._fast.motion import destination, drift_obstacle, outcome_of
 from .._fast.sensing import (
+    look,
     nearby,
     report,
     see_circle,
-    sense_borders,
-    sense_obstacles,
-    target_region,
-    within,
 )
 
 ROBOT_RADIUS = 1.0  # what comes nearer than this to a robot's centre has hit it
@@ -98,18 +95,14 @@ def sense(
     for j in range(start, stop):
         robot = robots[j]
         i = robot // team
-        x, y, heading = poses[robot, 0], poses[robot, 1], poses[robot, 2]
-        c, s = math.cos(heading), math.sin(heading)
-        number = nearby(i, shapes, centres, speeds, x, y, SENSOR_RANGE, near)
-        sense_obstacles(
-            j, i, kinds, shapes, centres, x, y, heading, c, s, near, number, ranges
-        )
+        number = nearby(
+            i, shapes, centres, speeds, poses[robot, 0], poses[robot, 1], SENSOR_RANGE, near
+        )  # fmt: skip
+        c, s = math.cos(poses[robot, 2]), math.sin(poses[robot, 2])
         sense_robots(j, robot, i * team, (i + 1) * team, poses, outcome, c, s, ranges)
-        if min(x, size - x, y, size - y) < SENSOR_RANGE:
-            sense_borders(j, size, x, y, c, s, ranges, walls)
-        dx, dy = targets[robot, 0] - x, targets[robot, 1] - y
-        seen[j] = within(SENSOR_RANGE, dx, dy)
-        region[j] = target_region(dx, dy, heading, c, s)
+        look(
+            j, robot, i, kinds, shapes, centres, size, poses, targets, c, s, near, number, ranges, walls, region, seen
+        )  # fmt: skip
     report(start, stop, robots, keys, steps, noise, ranges, walls)
 
 
