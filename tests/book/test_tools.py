@@ -293,6 +293,7 @@ kernelspec: {display_name: Python 3, language: python, name: python3}
 """
 
 
+@pytest.mark.slow
 def test_notebooks_are_valid_reproducible_and_without_outputs(tmp_path: Path) -> None:
     import nbformat  # takes seconds, so other tests do without
 
@@ -318,6 +319,7 @@ def test_a_notebook_lists_its_exercises_and_names_its_own_equations() -> None:
     assert "The targets (nfq-target) and the fit (nfq-fit)" in text
 
 
+@pytest.mark.slow
 def test_a_notebook_that_was_changed_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -190,6 +190,7 @@ def test_a_robot_alone_drives_as_among_others():
     np.testing.assert_array_equal(together.poses[[2]], alone.poses)
 
 
+@pytest.mark.slow
 def test_a_planner_with_a_memory_arrives_with_a_body():
     simulator = BodySimulator(random_worlds(4, obstacles=5, seed=11), max_steps=120)
     ends = navigate_in(Bug(), simulator, True, reflex=Reflex("exact"))

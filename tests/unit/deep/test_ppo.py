@@ -276,6 +276,7 @@ def trained_in_corridor(seed, updates):
     return ppo(envs, actor_critic(envs[0], hidden=(8,), seed=seed), seed=seed, **settings)  # fmt: skip
 
 
+@pytest.mark.slow
 def test_corridor_policy_and_values():
     trained = trained_in_corridor(0, 25)
     places = np.eye(5)[:4]

@@ -43,6 +43,7 @@ def text(node: ElementTree.Element, path: str) -> str:
     return (node.findtext(f"{path}/text") or "").strip()
 
 
+@pytest.mark.slow
 def test_every_question_is_there_with_its_type(bank, nodes) -> None:
     assert [node.get("type") for node in nodes] == [
         TYPES[type(one.question.asked)] for one in bank

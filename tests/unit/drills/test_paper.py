@@ -71,6 +71,7 @@ def test_every_question_is_in_the_exam(paper, exam) -> None:
                 assert all(part[:15] in exam for part in words(option.text))
 
 
+@pytest.mark.slow
 def test_the_exam_says_no_answer(paper, exam) -> None:
     assert "Usual mistakes" not in exam
     assert "Solutions" not in exam
@@ -107,6 +108,7 @@ def test_points_are_added_up(paper, exam) -> None:
     assert f"/ {total} " in exam
 
 
+@pytest.mark.slow
 def test_papers_differ_and_can_be_made_again() -> None:
     chosen = selected(drills=["td-error", "bellman-backup", "softmax"])
     papers = [Paper(seed, drawn(chosen, seed)) for seed in range(1, 41)]

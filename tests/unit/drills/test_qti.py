@@ -73,6 +73,7 @@ def plain(content: str) -> str:
     return "".join(ElementTree.fromstring(f"<p>{content}</p>").itertext())
 
 
+@pytest.mark.slow
 def test_there_is_an_item_for_each_answer(bank, made, canvas, blackboard) -> None:
     count = sum(
         len(one.question.asked.rows) * len(one.question.asked.columns)

@@ -164,6 +164,7 @@ def test_a_network_of_every_method_ships_with_what_made_it(name):
     assert evaluate(policy, SETUP.worlds(200, 77))["success"] > 93
 
 
+@pytest.mark.slow
 def test_training_twice_in_a_process_is_training_once():
     first = training("nnql", 3, "quick", tuned()["nnql"], length=0.1)
     same = Settings.of(json.loads(tuned()["nnql"].as_json()))

@@ -152,6 +152,7 @@ def test_steps_begin_with_one_gradient_step_and_add_up():
     assert ablations.options_up_to("discount 0.9")["improver"].discount == 0.9
 
 
+@pytest.mark.slow
 def test_the_defaults_are_those_of_the_method():
     """Figs. 5.7, 5.8 and 5.11: what the page on NIRL runs, ``nirl.learn`` without options but for the reflex."""
     settings = DEFAULTS | {"discount": DISCOUNT}
@@ -173,6 +174,7 @@ def test_one_gradient_step_is_one_reading(method):
     assert options["improver"] == FullBatchDescent(1)
 
 
+@pytest.mark.slow
 def test_choices_choose_what_they_say():
     found = trained("nirl", 0, tuned("nirl"), length=SHORT)
     worlds = SETUP.test_worlds(1, "quick")

@@ -466,6 +466,7 @@ def test_what_the_page_says_about_randomised_training():
         assert randomised <= exact
 
 
+@pytest.mark.slow
 def test_a_stage_goes_on_with_the_networks_of_the_one_before(monkeypatch):
     monkeypatch.setattr(curriculum, "SEEDS", {"quick": 2})
     monkeypatch.setitem(curriculum.SETUP.navigations, "quick", 4)

@@ -35,6 +35,7 @@ def test_points_lost_are_the_difference_in_the_same_worlds(chapter, method):
         assert sector["seconds to the target"] != exact["seconds to the target"]
 
 
+@pytest.mark.slow
 def test_a_policy_trains_with_the_reflex_of_its_case():
     for direction, command in (
         ("exact", Action.TO_TARGET),

@@ -157,6 +157,7 @@ def test_notebooks_are_valid_and_carry_what_nbgrader_reads(chapter):
         assert unwritten == (e.chapter == chapter)
 
 
+@pytest.mark.slow
 def test_building_writes_what_differs_and_removes_what_has_no_source(tmp_path):
     for folder in ("solutions", "tests/exercises", "exercises"):
         subprocess.run(
@@ -318,6 +319,7 @@ def test_a_cell_of_the_notebook_checks_an_answer(capsys):
     assert "Hint: This always takes a best action." in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [

@@ -358,6 +358,7 @@ def test_a_fault_of_the_grader_is_graded_again(folder, tmp_path, quick, monkeypa
     assert len(quick) == 6 + 2
 
 
+@pytest.mark.slow
 def test_one_student_or_one_exercise_again(folder, tmp_path, quick):
     out = tmp_path / "out"
     grade_class(HERE, folder, out, jobs=1)

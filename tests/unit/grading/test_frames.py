@@ -240,6 +240,7 @@ def test_any_header_gives_a_value_or_a_frame_error(value, arrays, body):
         frames.encode(frames.decode(made(value, [arrays], body)))
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(VALUES, st.data())
 def test_a_frame_with_changed_bytes_gives_a_value_or_a_frame_error(value, data):

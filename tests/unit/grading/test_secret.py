@@ -42,6 +42,7 @@ def cases(exercise, seed):
     return {str(arguments) for arguments in replies.asked}
 
 
+@pytest.mark.slow
 def test_every_change_of_a_submission_draws_its_cases_anew():
     seeds = [seed_of(b"a secret", content) for content in ("one", "two", "one")]
     first, second, again = (cases(CHEAPEST, seed) for seed in seeds)

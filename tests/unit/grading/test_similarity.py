@@ -407,6 +407,7 @@ def test_the_lines_that_a_variant_forces_are_known(tmp_path):
     assert scores == [round(of_both[1].score, 2), round(of_both[0].score, 2)]
 
 
+@pytest.mark.slow
 def test_few_exercises_tell_nothing(tmp_path):
     folder = handed_over(tmp_path / "class", exercises=["improve", "bounds"])
     copied(folder)

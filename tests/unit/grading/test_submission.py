@@ -116,6 +116,7 @@ def test_a_link_in_a_zip_is_refused(tmp_path):
         read(zipped(tmp_path, [(entry, "/etc/passwd")]))
 
 
+@pytest.mark.slow
 def test_too_much_is_not_taken(tmp_path):
     bomb = zipped(tmp_path, [("a.py", b"0" * (200 << 20))])
     assert bomb.stat().st_size < 1 << 20
@@ -147,6 +148,7 @@ def test_an_archive_of_a_few_bytes_is_not_unpacked_to_gigabytes(tmp_path, kind):
     assert peak < 300 << 20
 
 
+@pytest.mark.slow
 def test_a_zip_whose_table_of_contents_is_endless_is_not_read(tmp_path):
     path = zipped(tmp_path, [("a.py", "x = 1")])
     content = bytearray(path.read_bytes())

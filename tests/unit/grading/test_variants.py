@@ -283,6 +283,7 @@ def run(*arguments, cwd=COURSE.root, **environment):
     return done.returncode, done.stdout + done.stderr
 
 
+@pytest.mark.slow
 def test_a_wrong_input_is_one_sentence(tmp_path):
     (tmp_path / "full").mkdir()
     (tmp_path / "full/thesis.txt").write_text("precious")
@@ -499,6 +500,7 @@ def test_a_class_graded_without_a_variant_is_not_graded_with_one(tmp_path):
         variants.course_for(COURSE, "x", tmp_path, tmp_path / "out")
 
 
+@pytest.mark.slow
 def test_a_class_is_graded_again_only_with_the_same_options(tmp_path):
     """All changes between no variant, one for all, and one for each student are refused before anything is graded."""
     options = {

@@ -168,6 +168,7 @@ def test_no_shorter_way_than_a_plan_of_few_steps():
     )
 
 
+@pytest.mark.slow
 def test_grid_plan_is_a_shortest_path_of_the_grid():
     target, margin = (30.5, 31.2), 2.0
     points = np.array(list(itertools.product(range(2, 39), repeat=2)))

@@ -60,6 +60,7 @@ def test_episodes_of_other_endings():
     assert_same(from_minari(to_minari(straight, "robonav/straight-v0")), straight)
 
 
+@pytest.mark.slow
 def test_what_minaris_collector_records():
     env = gymnasium.make("robonav/Navigation-v0", obstacles=10, speed=2.5)
     collector = minari.DataCollector(env, record_infos=True)

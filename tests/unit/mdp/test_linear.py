@@ -199,6 +199,7 @@ def test_outside_counts_as_on_the_edge():
     np.testing.assert_array_equal(TILES.active((-3, 9)), TILES.active((0, 2)))
 
 
+@pytest.mark.slow
 def test_tiles_carry_what_was_learned_to_places_never_seen():
     """On the cliff with tiles over (row, column), values beyond the walk are learned too, and the goal is found."""
     cliff = gym.make("CliffWalking-v1")
@@ -217,6 +218,7 @@ def test_tiles_carry_what_was_learned_to_places_never_seen():
     assert -25 < walk.rewards.sum() <= -13
 
 
+@pytest.mark.slow
 def test_any_observation_will_do():
     """A car on a hill: two real numbers, no table."""
     car = gym.make("MountainCar-v0")

@@ -92,6 +92,7 @@ def test_both_tend_to_the_value(visit):
     assert predicted.values[0] == pytest.approx(1 / (1 - Loop.p), rel=0.04)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("visit", VISITS)
 def test_prediction_agrees_with_the_model_on_frozen_lake(visit):
     lake = gym.make("FrozenLake-v1", max_episode_steps=1000)
@@ -131,6 +132,7 @@ def test_a_constant_rate_weighs_new_returns_more():
     assert learned.q[0, 0] == pytest.approx(0.125 * one + 0.25 * two + 0.5 * three)
 
 
+@pytest.mark.slow
 def test_blackjack_is_learned_better_than_by_chance():
     table = gym.make("Blackjack-v1", sab=True)
     learned = monte_carlo_control(table, 8_000, discount=1.0, seed=0)

@@ -280,6 +280,7 @@ def best_while_exploring(mdp, epsilon, sweeps=5000):
     return q
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("learn", "epsilon", "learning_rate", "reward"),
     [

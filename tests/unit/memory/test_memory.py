@@ -110,6 +110,7 @@ def test_labels_are_the_experts_actions_and_inputs_what_was_done():
         assert not seen.inputs[steps:, robot].any()
 
 
+@pytest.mark.slow
 def test_training_is_determined_by_its_seeds():
     def weights(seed):
         policy = MemoryPolicy(made("2"), Encoder(), 0.1)

@@ -153,6 +153,7 @@ def test_gradient_of_the_log_likelihood_is_the_gap(terrain):
     assert error < 1e-4
 
 
+@pytest.mark.slow
 def test_it_matches_the_features_of_a_soft_expert(terrain):
     """A soft driver's weights are found again, but for the one direction in which every policy earns the same.
 

@@ -602,6 +602,7 @@ def test_settings_out_of_bounds_get_a_sentence(setting):
         ReplaySGD(**setting)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings(
     # the expert never errs, so that no reward makes random segments like its own
     "ignore:relative_entropy_weights ended:robonav.errors.ConvergenceWarning"

@@ -51,6 +51,7 @@ def test_nnql_trains_on_the_whole_episode_and_online_learning_on_its_latest_step
     assert training.decisions.max() > 5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_seeds_together_are_seeds_apart(method):
     together = train(method, seeds=[4, 0, 9], episodes=12, **SMALL[method])
@@ -60,6 +61,7 @@ def test_seeds_together_are_seeds_apart(method):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_an_interrupted_training_ends_as_one_that_was_not(method, tmp_path):
     path, whole = (

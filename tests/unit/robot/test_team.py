@@ -37,6 +37,7 @@ def on_empty_map(*robots):
     return Teams(make_world(), ends[None, :, :2], ends[None, :, 2:])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("robots", "obstacles", "speed", "direction"),
     [(2, 0, 2.0, "exact"), (5, 10, 1.3, "exact"), (16, 10, 2.0, "sector")],

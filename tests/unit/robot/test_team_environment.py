@@ -175,6 +175,7 @@ def test_a_wrong_action_gets_one_clear_sentence():
         env.step({"robot_0": 0, "robot_1": 6})
 
 
+@pytest.mark.slow
 def test_teams_load_without_pettingzoo():
     """It is an extra. The simulator does not need it, and says so where something does."""
     code = (

@@ -50,6 +50,7 @@ def test_few_rounds_teach_to_go_round_obstacles():
     assert after > 0.8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sensor", [Ring(9), Picture(16)])
 def test_a_seed_gives_the_same_network_again(sensor):
     trained = [

@@ -95,6 +95,7 @@ return [on, mine, again].map((network, k) => file(network, k === 0 ? first.encod
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(
     "encoder",
@@ -244,6 +245,7 @@ def test_a_file_that_holds_no_reward_gets_one_sentence(node, tmp_path, arrays, w
     assert said == f"{begins} columns: {why}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["policy-learning", "nnql", "nirl"])
 def test_the_python_of_the_pages_goes_on_from_the_files(tmp_path, monkeypatch, name):
     page = (Path(__file__).parents[3] / f"book/{name}.md").read_text("utf-8")

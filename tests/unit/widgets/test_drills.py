@@ -125,6 +125,7 @@ def test_a_form_says_how_many_decimals_count(node, asked, words) -> None:
     assert node("drills", "return page.decimals(data);", as_json(question)) == ""
 
 
+@pytest.mark.slow
 def test_pages_say_of_every_question_what_python_says(node) -> None:
     """The exports say what Python says."""
     drawn = [drill.question(seed) for drill in DRILLS.values() for seed in range(SEEDS)]

@@ -89,6 +89,7 @@ def test_its_settings_can_be_sent_and_are_checked(name):
     assert isinstance(part.length, int) or part.length in part.settings
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TRAININGS)
 def test_it_tells_the_page_how_far_it_is_and_gives_it_numbers_of_its_own_form(name):
     page = Page(name)
@@ -155,6 +156,7 @@ def test_the_reward_of_maximum_entropy():
     np.testing.assert_allclose(page.points("gap")[1:], found.gaps, atol=0.02)
 
 
+@pytest.mark.slow
 def test_a_reward_moves_with_the_target_and_copied_actions_do_not():
     page = Page("reward_transfer")
     terrains = page.train(demonstrations=50)["given"]["terrains"]
@@ -189,6 +191,7 @@ def test_two_methods_are_compared():
     assert given["scatter"] % 0.25 == given["difference"] % 0.25 == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ends", ["1/2", "0"])
 def test_a_reward_is_learned_with_ends_of_a_chosen_value(ends):
     page = Page("value_of_an_end")
@@ -239,6 +242,7 @@ def learned_alone(method: str, seed: int) -> mdp.PredictionResult:
     return mdp.monte_carlo_prediction(rooms, coin, 100, visit=visit, **options)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", TRAININGS["td_step_size"].settings["method"].options)
 def test_values_of_the_rooms_are_those_of_the_package(method):
     page = Page("td_step_size")
@@ -370,6 +374,7 @@ def test_samples_near_the_expert_s_count_for_more():
     assert counted[0] < 25 < 400 < counted[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("measure", nirl_trainings.MEASURES)
 def test_the_policy_is_kept_by_the_chosen_measure(measure):
     page = Page("accuracy_or_balance")

@@ -577,6 +577,7 @@ def test_without_the_estimate_the_search_expands_more_nodes(compute):
     assert by_h["length"] > by_f["length"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("margin", "caution"), [(1.0, 0), (3.0, 0), (4.5, 2)])
 def test_paths_with_a_margin_are_the_planners(compute, margin, caution):
     body = "return given.paths[page.placeOf(given, data)];"

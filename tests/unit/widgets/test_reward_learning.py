@@ -44,6 +44,7 @@ def answers_of(widget, message):
     return answers
 
 
+@pytest.mark.slow
 def test_robots_are_trained_as_learn_trains_them(widget):
     *told, last = answers_of(widget, REQUEST)
     expected = [learn(DEMONSTRATIONS, "nirl", 5 + k, iterations=4) for k in range(2)]
