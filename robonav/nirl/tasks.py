@@ -12,18 +12,21 @@ from robonav.lfd.demonstrations import LEARNED
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.policy import NetworkPolicy, sample_actions
 from robonav.robot import (
+    COLLISION_DISTANCE,
     REFLEX,
     Encoder,
     ReflexRule,
     Sensing,
     Simulator,
+    Worlds,
     random_worlds,
     run_episodes,
+    sense,
 )
 from robonav.robot._fast import ARRIVED, COLLIDED
 from robonav.validation import check_integer, check_positive
 
-from .decisions import ENCODER, Decisions, Floats, Ints
+from .decisions import ENCODER, Decisions, Floats, Ints, add_constant
 from .policy import ActionProbabilities
 from .reward_free_mdp import RewardFreeMDP, Trajectories
 
@@ -497,3 +500,47 @@ class TabularTask:
             np.zeros(len(alive), dtype=bool),
             ~alive[:, -1],
         )
+
+
+def reward_map(
+    world: Worlds, weights: ArrayLike, encoder: Encoder, *, spacing: float = 1.0
+) -> Floats:
+    """The reward of going straight on at the points of a grid over a world, if the robot faces the target.
+
+    It is NaN within a metre of an obstacle, and where nothing is in range: there the policy decides nothing.
+
+    Parameters
+    ----------
+    world : Worlds
+        Batch of one: the map.
+    weights : (5, k + 1) array
+        theta, a row for each action.
+    encoder : Encoder
+        Turns what the robot senses into inputs.
+    spacing : float
+        Metres between two points of the grid.
+
+    Returns
+    -------
+    (n, n) array
+        Rows from the lower border of the map to the upper one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from robonav.nirl import ENCODER
+    >>> from robonav.nirl.tasks import reward_map
+    >>> from robonav.robot import make_world
+    >>> weights = np.eye(5, ENCODER.size + 1)
+    >>> reward = reward_map(make_world(circles=[(50, 50, 3)]), weights, ENCODER, spacing=5.0)
+    >>> reward.shape, bool(np.isnan(reward[10, 10]))  # inside the obstacle
+    ((20, 20), True)
+    """
+    ticks = np.arange(spacing / 2, world.size, spacing)
+    x, y = (part.ravel() for part in np.meshgrid(ticks, ticks))
+    heading = np.arctan2(world.targets[0, 1] - y, world.targets[0, 0] - x)
+    poses = np.column_stack([x, y, heading])
+    sensing = sense(world[np.zeros(len(x), dtype=int)], poses)
+    reward = add_constant(encoder(sensing)) @ np.asarray(weights, dtype=float)[0]
+    reward[sensing.safe | (sensing.ranges.min(axis=1) < COLLISION_DISTANCE)] = np.nan
+    return reward.reshape(len(ticks), -1)

@@ -16,8 +16,8 @@ from robonav import style
 from robonav.benchmark import display_name
 from robonav.experiments import Results
 from robonav.lfd import Demonstrations
-from robonav.nirl.decisions import add_constant
-from robonav.robot import COLLISION_DISTANCE, SENSOR_RANGE, Encoder, Worlds, sense
+from robonav.nirl.tasks import reward_map
+from robonav.robot import SENSOR_RANGE, Encoder, Worlds
 from robonav.robot._fast import SECTOR
 from robonav.robot.drawing import draw_robot, draw_world
 from robonav.robot.encoding import TARGET_WIDTHS
@@ -689,17 +689,10 @@ def draw_reward_map(
     >>> len(axes.images) + len(axes.collections) > 0
     True
     """
-    ticks = np.arange(spacing / 2, world.size, spacing)
-    x, y = (part.ravel() for part in np.meshgrid(ticks, ticks))
-    heading = np.arctan2(world.targets[0, 1] - y, world.targets[0, 0] - x)
-    sensing = sense(
-        world[np.zeros(len(x), dtype=int)], np.column_stack([x, y, heading])
-    )
-    reward = add_constant(encoder(sensing)) @ np.asarray(weights, dtype=float)[0]
-    reward[sensing.safe | (sensing.ranges.min(axis=1) < COLLISION_DISTANCE)] = np.nan
+    reward = reward_map(world, weights, encoder, spacing=spacing)
     most = np.nanmax(abs(reward))
     image = axes.imshow(
-        reward.reshape(len(ticks), -1),
+        reward,
         extent=(0, world.size, 0, world.size),
         origin="lower",
         cmap=GOOD_AND_BAD,
