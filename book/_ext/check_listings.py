@@ -5,7 +5,7 @@ warnings, keeps no record of its iterations, and names no parameter ``record`` t
 tree is searched for them. A decorator may check the arguments and keep the record, since it stands outside the code.
 The listing calls no helper of the package that checks its input: a function that a package does not export, and that
 raises an error or calls a check.
-Each numbered equation of a page has a listing on that page whose comments carry its number.
+Each numbered equation of a page is followed by a listing on that page whose comments carry its number.
 Equations that only introduce a symbol (``symbols.toml``) need no listing. A code cell of the page that is not folded
 has at most 88 columns, and so has an exercise's file.
 """
@@ -168,13 +168,13 @@ def wide_stubs(html: str) -> Iterator[str]:
 def faults(html: str) -> Iterator[str]:
     """Yield one sentence for each fault of the listings of one page."""
     soup = parsed(html)
-    equations: list[str] = []  # the numbers of the page's equations, in its order
-    listed: set[citations.Number] = set()  # those that its listings carry
+    # The numbers of the equations that no listing below them has carried so far, in the order of the page.
+    open_numbers: dict[citations.Number, str] = {}
     for found in soup.select("div.math[id^=equation-eq-], div.function-source"):
         if "math" in (found.get("class") or ()):
             number = _number(str(found["id"]))
             if number and citations.key(number) not in citations.symbols():
-                equations.append(number)
+                open_numbers[citations.key(number)] = number
             continue
         text = found.get_text().strip("\n")
         caption = found.find_previous_sibling(class_="code-block-caption")
@@ -193,10 +193,10 @@ def faults(html: str) -> Iterator[str]:
         for helper in helpers(function, text) if function else ():
             if checks_input(helper):
                 yield f"{name} calls {helper.__name__}, which checks its input"
-        listed |= citations.cited("equations", text)
-    for number in equations:
-        if citations.key(number) not in listed:
-            yield f"no listing carries the number of Eq. ({number})"
+        for key in citations.cited("equations", text):
+            open_numbers.pop(key, None)
+    for number in open_numbers.values():
+        yield f"no listing below Eq. ({number}) carries its number"
 
 
 def _number(anchor: str) -> str | None:

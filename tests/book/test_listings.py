@@ -38,8 +38,15 @@ WARNING = "shows a warning"
 RIGHT = listing("def f(q):\n    return q.max()  # Eq. (2.9)")
 
 
-@pytest.mark.parametrize("page", [equation("2.9") + RIGHT, RIGHT + equation("2.9")])
-def test_equation_with_its_listing(page: str) -> None:
+@pytest.mark.parametrize(
+    "page",
+    [
+        equation("2.9") + RIGHT,
+        equation("2.9") + equation("2.10") + RIGHT + listing("v  # Eq. (2.10)"),
+        RIGHT + equation("2.9") + RIGHT,
+    ],
+)
+def test_equation_followed_by_its_listing(page: str) -> None:
     assert list(faults(page)) == []
 
 
@@ -48,10 +55,11 @@ def test_equation_with_its_listing(page: str) -> None:
     [
         equation("2.9"),
         equation("2.9") + listing("return q  # Eq. (2.90)"),
+        RIGHT + equation("2.9"),
     ],
 )
-def test_equation_without_listing(page: str) -> None:
-    assert list(faults(page)) == ["no listing carries the number of Eq. (2.9)"]
+def test_equation_not_followed_by_its_listing(page: str) -> None:
+    assert list(faults(page)) == ["no listing below Eq. (2.9) carries its number"]
 
 
 def test_equation_of_the_page_itself_needs_no_listing() -> None:
