@@ -66,6 +66,7 @@ class Evidence:
         self.names = names  # of the function's arguments
         self.observations: list[Observation] = []
         self.changed = False  # whether a change of an argument has cost a part already
+        self._wrong: dict[Observation, dict[str, tuple[str, Any]]] = {}
 
     def observe(
         self,
@@ -153,7 +154,17 @@ class Evidence:
         return fits
 
     def _mistakes(self, observation: Observation) -> dict[str, tuple[str, Any]]:
-        """Return hint and answer of the known mistakes that are wrong in the places that counted."""
+        """Return hint and answer of the known mistakes that are wrong in the places that counted.
+
+        They are kept, because each mistake that fits one call is compared with all others.
+        """
+        if observation not in self._wrong:
+            self._wrong[observation] = self._wrong_where_counted(observation)
+        return self._wrong[observation]
+
+    def _wrong_where_counted(
+        self, observation: Observation
+    ) -> dict[str, tuple[str, Any]]:
         if observation.verdict == "asked" or observation.expected is None:
             return {}
         known = {

@@ -28,8 +28,9 @@ MISTAKES = [
 ]
 
 
-@pytest.fixture(params=EXERCISES, ids=lambda exercise: exercise.name)
+@pytest.fixture(scope="module", params=EXERCISES, ids=lambda exercise: exercise.name)
 def exercise(request):
+    """Each exercise. Tests of the same one run one after the other, so that they share its answers."""
     return request.param
 
 

@@ -28,8 +28,9 @@ LONG = [
 VARIED = [e for e in COURSE.exercises.values() if variants.knobs(COURSE, e)]
 
 
-@pytest.fixture(params=VARIED, ids=lambda exercise: exercise.name)
+@pytest.fixture(scope="module", params=VARIED, ids=lambda exercise: exercise.name)
 def exercise(request):
+    """Each exercise with variants. Tests of the same one run one after the other, so that they share its variants."""
     return request.param
 
 
