@@ -41,13 +41,13 @@ export function mapCanvas(attributes = {}) {
     pen.stroke();
   };
 
-  const start = ([x, y]) => {
-    pen.fillStyle = PALETTE.ROBOT;
+  const start = ([x, y], colour = PALETTE.ROBOT) => {
+    pen.fillStyle = colour;
     pen.fillRect(toX(x) - 4, toY(y) - 4, 8, 8);
   };
 
-  const target = ([x, y], marked = false) => {
-    pen.strokeStyle = PALETTE.TARGET;
+  const target = ([x, y], marked = false, colour = PALETTE.TARGET) => {
+    pen.strokeStyle = colour;
     pen.lineWidth = marked ? 4 : 2.5;
     pen.beginPath();
     pen.arc(toX(x), toY(y), ROBOT.arrival * scale, 0, 2 * Math.PI);
@@ -76,12 +76,17 @@ export function mapCanvas(attributes = {}) {
   };
 
   /** @param {Pose} pose */
-  const robot = ({ x, y, heading }) => {
+  const robot = ({ x, y, heading }, colour = PALETTE.ROBOT) => {
     pen.beginPath();
     for (const angle of [0, 2.5, -2.5]) pen.lineTo(toX(x + 2.2 * Math.cos(heading + angle)), toY(y + 2.2 * Math.sin(heading + angle)));
     pen.closePath();
-    pen.fillStyle = PALETTE.ROBOT;
+    pen.fillStyle = colour;
     pen.fill();
+  };
+
+  /** Where a robot of several ended in a collision. @param {Pose} pose */
+  const cross = ({ x, y }, colour) => {
+    for (const slope of [-1, 1]) line([[x - 1.2, y - 1.2 * slope], [x + 1.2, y + 1.2 * slope]], colour, 2.5);
   };
 
   /** A way through points [x, y]. */
@@ -108,7 +113,7 @@ export function mapCanvas(attributes = {}) {
     return [(px - EDGE) / scale, (SIDE - EDGE - py) / scale];
   };
 
-  return { canvas, begin, obstacle, start, target, sectors, robot, line, dots, place };
+  return { canvas, begin, obstacle, start, target, sectors, robot, cross, line, dots, place };
 }
 
 /** Where the arrow keys lead on a map, in metres. */

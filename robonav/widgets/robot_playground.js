@@ -90,9 +90,12 @@ function render({ model, el }) {
   let episode = makeEpisode(worlds[0].world, 2);
   let [who, selected, pace, running, t, last, frame] = [theBooks[0], "robot", 4, false, 1, 0, 0];
   let [mapNumber, alone] = [null, true]; // of the reader's maps; whether the reader alone has driven since the start
+  let [others, company, leader] = [[], null, theBooks[0]]; // starts and targets of further robots; who drives them, or null; the last policy of robot 1
   const mine = () => who === ME;
+  const several = () => others.length > 0;
 
   const status = h("p", { class: "status", role: "status" });
+  const tally = h("p", { class: "tally", role: "status" });
   const values = h("div", { class: "values" });
   const table = readings();
   const picture = h("div", {});
@@ -131,12 +134,13 @@ function render({ model, el }) {
   });
 
   const paint = () => board.draw(t);
+  const seen = () => episode.seenBy(episode.robots[0]);
   /** Everything but the map, which is drawn for itself many times a second. */
   function refresh() {
-    const { sensing, outcome, step, speed } = episode;
+    const { sensing, outcome, step, speed, robots } = episode;
     table.show(sensing);
     const own = reflex(sensing, speed);
-    const thought = mine() ? null : who.decide(episode);
+    const thought = mine() ? null : who.decide(seen());
     if (thought?.z) {
       values.replaceChildren(...[...thought.z].map((z, k) => h("span", { class: k === thought.action ? "chosen" : "" }, `${ROBOT.actions[k]} ${sigmoid(z).toFixed(2)}`)));
       who.picture.show(who.network, thought.activations);
@@ -144,29 +148,35 @@ function render({ model, el }) {
     const will = turnsToTarget(own) && coast.checked && mine() ? (step > 0 ? "nothing in range: it goes on by itself" : `press ${whatSteers()}, and it sets off`)
       : turnsToTarget(own) ? "nothing in range: its reflex turns it to the target" : own === ROBOT.backward ? "blocked ahead: its reflex steps back"
       : thought ? `it takes ${ROBOT.actions[thought.action]}, ${actionName(thought.action)}` : "it waits for you";
-    const ended = { arrived: `Arrived after ${step} s.`, collided: `Collided after ${step} s.` }[outcome];
-    status.textContent = ended ?? `${step} s, target in sector ${sensing.region}${sensing.seen ? ", seen" : ""}; ${will}.`;
-    board.canvas.setAttribute("aria-label", `Map, ${episode.world.obstacles.length} obstacles. Robot at ${metres(episode.pose.x)}, ${metres(episode.pose.y)}. ${status.textContent}`);
-    save.disabled = episode.steps.length === 0;
+    const seconds = episode.steps.length;
+    const ended = { arrived: `Arrived after ${seconds} s.`, collided: `Collided after ${seconds} s.` }[outcome];
+    const said = ended ?? `${seconds} s, target in sector ${sensing.region}${sensing.seen ? ", seen" : ""}; ${will}.`;
+    status.textContent = several() ? `Robot 1: ${said}` : said;
+    tally.textContent = several() ? `${step} s, ${robots.length} robots: ${tallyWords(tallyOf(robots))}.` : "";
+    board.canvas.setAttribute("aria-label", `Map, ${episode.world.obstacles.length} obstacles${several() ? `, ${robots.length} robots` : ""}. Robot${several() ? " 1" : ""} at ${metres(episode.pose.x)}, ${metres(episode.pose.y)}. ${status.textContent}${several() ? ` ${tally.textContent}` : ""}`);
+    save.disabled = several() || episode.steps.length === 0;
     inspect.update();
     paint();
   }
   /** Whether the reader drives and the reflex decides: nothing is near, or the robot is blocked. */
-  const coasting = () => mine() && coast.checked && episode.step > 0 && episode.outcome === "running" && reflex(episode.sensing, episode.speed) >= 0;
+  const coasting = () => mine() && !episode.over() && (episode.outcome !== "running" // the others finish without the reader
+    || (coast.checked && episode.step > 0 && reflex(episode.sensing, episode.speed) >= 0));
+  /** What the policy of the further robots chooses for one of them. */
+  const choiceOf = (robot) => (robot.outcome === "running" ? (company ?? leader).decide(episode.seenBy(robot)).action : 0);
   const act = (chosen) => {
-    if (episode.outcome !== "running") return;
+    if (episode.over()) return;
     if (t < 1) t = 1;
-    alone &&= mine();
-    episode.go(chosen ?? 0);
+    alone &&= mine() && !several();
+    episode.goAll([chosen ?? 0, ...episode.robots.slice(1).map(choiceOf)]);
     t = running || mine() ? 0 : 1;
-    if (episode.outcome !== "running") {
+    if (episode.over()) {
       pause();
       if (alone) keep();
     }
     refresh();
     if (t < 1) wake();
   };
-  const next = () => act(mine() ? 0 : who.decide(episode).action);
+  const next = () => act(mine() ? 0 : who.decide(seen()).action);
   function tick(time) {
     frame = 0;
     t = Math.min(1, t + (Math.min(time - last, 100) / 1000) * PACES[pace]);
@@ -186,7 +196,7 @@ function render({ model, el }) {
   };
   const play = h("button", { type: "button", class: "main", click: () => {
     if (running) return pause();
-    if (episode.outcome !== "running") begin();
+    if (episode.over()) begin();
     running = true;
     play.textContent = "Pause";
     refresh();
@@ -238,6 +248,7 @@ function render({ model, el }) {
   };
   const pick = (chosen) => {
     who = chosen;
+    if (!mine()) leader = who;
     list.selectedIndex = everybody().indexOf(who);
     picture.replaceChildren(...(who.picture ? [who.picture.element] : []));
     play.disabled = play.hidden = mine();
@@ -248,10 +259,23 @@ function render({ model, el }) {
     cockpit.scrollIntoView({ block: "nearest" });
   };
   const go = (world, number = null) => {
-    episode = makeEpisode(world, episode.speed);
-    [selected, mapNumber] = ["robot", number];
+    const cleared = clearedFor(world, others);
+    const left = world.obstacles.length - cleared.obstacles.length;
+    episode = makeEpisode(cleared, episode.speed, others);
+    [selected, mapNumber] = ["robot", left ? null : number];
+    room.textContent = left ? `Left out: ${left} obstacle${left > 1 ? "s" : ""} on a start or a target.` : "";
     reset();
   };
+  /** Puts so many robots on the map. */
+  const gather = (count) => {
+    others = crossing(count, episode.world.size).slice(1);
+    friends.element.hidden = !several();
+    go(episode.base, mapNumber);
+  };
+  const room = h("span", { role: "status" });
+  const crowd = slider({ label: "robots on the map", count: MOST_ROBOTS, text: (step) => String(step + 1), change: (step) => gather(step + 1) });
+  const friends = choice({ label: "who drives the others", options: ["the policy of robot 1", ...theBooks.map(({ name }) => name)], change: (index) => (company = theBooks[index - 1] ?? null) });
+  friends.element.hidden = true;
   const where = choice({ label: "world", options: [...worlds.map(({ name }) => name), "a map of yours"], change: (index) => (index < worlds.length ? go(worlds[index].world) : newMap()) });
   const newMap = () => {
     const number = nextMap(keptDemonstrations());
@@ -284,12 +308,13 @@ function render({ model, el }) {
     if (!coasting()) act(action);
   };
   const wheel = steeringButtons({ label: "Drive yourself, a step at a time", take: steer });
-  const cockpit = h("div", { class: "cockpit" }, board.canvas, wheel, status, mineKept.said);
+  const cockpit = h("div", { class: "cockpit" }, board.canvas, wheel, status, tally, mineKept.said);
   const forgetPads = watchPads((action) => mine() && steer(action), () => (mine() && episode.outcome === "running" && episode.step > 0) || newMap());
 
   asWidget(el, "Robot playground", "robot-playground");
   el.replaceChildren(
     h("div", { class: "row tools" }, where.element, h("label", {}, h("span", {}, "who drives"), list), fast.element, h("button", { type: "button", class: "main", click: newMap }, "Drive a new map yourself")),
+    h("div", { class: "row tools" }, crowd.element, friends.element, room),
     h("div", { class: "row" },
       h("div", { class: "grow" }, cockpit,
         h("div", { class: "row tools" }, play, h("button", { type: "button", click: () => { pause(); next(); } }, "One step"), h("button", { type: "button", click: reset }, "Back to the start"), rate.element),

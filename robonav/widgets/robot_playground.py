@@ -21,7 +21,7 @@ class RobotPlayground(anywidget.AnyWidget):
     """Edit a map in which a policy or the reader steers the robot, and download the episode."""
 
     _esm = front_end(
-        "simulator", "maps", "episode", "steering", "files", "learning/random", "learning/worlds",
+        "simulator", "team", "maps", "episode", "steering", "files", "learning/random", "learning/worlds",
         "kept_demonstrations", "kept_robots", "robot_playground",
     )  # fmt: skip
     _css = style_sheet(

@@ -1,4 +1,4 @@
-// The simulator in the page: robonav/robot/_fast in JavaScript, one robot at a time, held to Python by replayed episodes.
+// The simulator in the page: robonav/robot/_fast and its team in JavaScript, held to Python by replayed episodes.
 
 /**
  * @typedef {{circle: boolean, x: number, y: number, a: number, b: number, turned: number, speed: number, heading: number}} Obstacle
@@ -6,6 +6,8 @@
  * @typedef {{size: number, start: number[], target: number[], key: number[], obstacles: Obstacle[]}} World
  * @typedef {{x: number, y: number, heading: number}} Pose
  * @typedef {{ranges: number[], walls: boolean[], region: number, seen: boolean}} Sensing
+ * @typedef {{pose: Pose, target: number[], key: number[], outcome: string, met: boolean}} Robot one of several on a map;
+ *   met: it has collided with another one
  * @typedef {{sensors: number[], walls: boolean, target: string}} Encoder as robonav.robot.Encoder
  */
 
@@ -270,23 +272,57 @@ function turnedToTarget(command, { x, y, heading }, target) {
   return wrap(heading + ROBOT.sector * (targetRegion(dx, dy, heading) - 1));
 }
 
+/** Where a command takes a robot in a second, if it goes on its way to the end. @returns {Pose} */
+function destination({ pose, target, key }, step, command, speed, slip) {
+  const straight = turnsToTarget(command) ? 0 : command;
+  const action = slip ? slipped(straight, slip, key, step) : straight;
+  const facing = turnsToTarget(command) ? turnedToTarget(command, pose, target) : pose.heading;
+  const heading = wrap(facing + ROBOT.turns[action]);
+  const length = action === ROBOT.backward ? -speed : speed;
+  return { x: pose.x + length * Math.cos(heading), y: pose.y + length * Math.sin(heading), heading };
+}
+
+/** A robot as the others sense it and meet it. @param {Pose} pose @returns {Obstacle} */
+const bodyOf = ({ x, y }) => ({ circle: true, x, y, a: ROBOT.collision, b: 0, turned: 0, speed: 0, heading: 0 });
+const isOnMap = ({ outcome }) => outcome === "running";
+const othersOnMap = (robots, robot) => robots.filter((other) => other !== robot && isOnMap(other));
+
 /**
- * One second: turn, go; obstacles drift.
+ * The world as one of several robots senses it: its own target, and the others that are on the map as circles.
+ * @param {World} world @param {Robot[]} robots @param {Robot} robot one of them
+ * @returns {World}
+ */
+export const worldAround = (world, robots, robot) =>
+  ({ ...world, target: robot.target, key: robot.key, obstacles: [...world.obstacles, ...othersOnMap(robots, robot).map(({ pose }) => bodyOf(pose))] });
+
+/**
+ * One second of all robots on a map, which move at once: each turns and goes; obstacles drift. Who has arrived or collided leaves the map.
+ * @param {World} world @param {Robot[]} robots
+ * @param {number[]} commands one for each robot; those of robots that have left the map do not count
  * @param {number[][] | null} slip how likely each action turns into another
+ * @returns {{world: World, robots: Robot[]}}
+ */
+export function advanceTeam(world, robots, step, commands, speed, slip = null) {
+  const after = { ...world, obstacles: drift(world, step) };
+  const ways = new Map(robots.map((robot, r) => [robot, isOnMap(robot) && destination(robot, step, commands[r], speed, slip)]));
+  return { world: after, robots: robots.map((robot) => {
+    if (!isOnMap(robot)) return robot;
+    const [{ x, y }, pose, others] = [robot.pose, ways.get(robot), othersOnMap(robots, robot)];
+    const apart = others.map((other) => sweptDistance(bodyOf(ways.get(other)), other.pose, x, y, pose.x, pose.y));
+    const clearance = Math.min(sweptClearance(after, world.obstacles, x, y, pose.x, pose.y), ...apart.map((distance) => Math.max(distance, 0)));
+    const left = micrometres(Math.hypot(robot.target[0] - pose.x, robot.target[1] - pose.y));
+    const outcome = micrometres(clearance) < ROBOT.collision ? "collided" : left <= ROBOT.arrival ? "arrived" : "running";
+    return { ...robot, pose, outcome, met: apart.some((distance) => micrometres(distance) < ROBOT.collision) };
+  }) };
+}
+
+/**
+ * One second of a robot that is alone.
  * @returns {{world: World, pose: Pose, outcome: string}} outcome: running, arrived or collided
  */
 export function advance(world, pose, step, command, speed, slip = null) {
-  let { heading } = pose;
-  const straight = turnsToTarget(command) ? 0 : command;
-  const action = slip ? slipped(straight, slip, world.key, step) : straight;
-  if (turnsToTarget(command)) heading = turnedToTarget(command, pose, world.target);
-  heading = wrap(heading + ROBOT.turns[action]);
-  const length = action === ROBOT.backward ? -speed : speed;
-  const next = { x: pose.x + length * Math.cos(heading), y: pose.y + length * Math.sin(heading), heading };
-  const after = { ...world, obstacles: drift(world, step) };
-  const clearance = micrometres(sweptClearance(after, world.obstacles, pose.x, pose.y, next.x, next.y));
-  const left = micrometres(Math.hypot(world.target[0] - next.x, world.target[1] - next.y));
-  const outcome = clearance < ROBOT.collision ? "collided" : left <= ROBOT.arrival ? "arrived" : "running";
+  const alone = { pose, target: world.target, key: world.key, outcome: "running", met: false };
+  const { world: after, robots: [{ pose: next, outcome }] } = advanceTeam(world, [alone], step, [command], speed, slip);
   return { world: after, pose: next, outcome };
 }
 

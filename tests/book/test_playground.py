@@ -23,9 +23,18 @@ from robonav.networks import (
     random_network,
     save_weights,
 )
-from robonav.robot import Encoder, navigate, random_worlds, sense, turn_to_clearer_side
+from robonav.robot import (
+    Encoder,
+    navigate,
+    random_worlds,
+    sense,
+    straight,
+    turn_to_clearer_side,
+)
+from robonav.robot.team import navigate_team, random_teams
 
 ME = "you"
+WIDER = "document.documentElement.scrollWidth - innerWidth"
 GREEDY = [
     name
     for name in methods()
@@ -82,6 +91,44 @@ def test_rules_end_as_in_python(lab):
         assert (
             said == f"{expected.outcome[0].capitalize()} after {expected.steps[0]} s."
         )
+    several_end_as_in_python(lab)
+    the_reader_drives_among_others(lab)
+
+
+def several_end_as_in_python(lab: Locator) -> None:
+    """Robot 1 has another rule than the others, and the ends of all are counted."""
+    choose(lab, "world", "nothing at all")
+    crowd = lab.get_by_role("slider", name="robots on the map", exact=True)
+    crowd.press("End")
+    choose(lab, "who drives the others", "rule: freer-side")
+    choose(lab, "who drives", "rule: straight")
+    teams = random_teams(1, 16, 0, seed=0)
+    policies = [straight, *[turn_to_clearer_side] * 15]
+    expected = navigate_team(policies, teams)
+    lab.get_by_role("button", name="Drive", exact=True).click()
+    expect(lab.locator(".tally")).to_have_text(
+        f"{expected.steps.max()} s, 16 robots: {expected.success.sum()} arrived, "
+        f"{expected.collision.sum()} collided ({expected.met.sum()} with a robot)."
+    )
+    first = f"{expected.outcome[0, 0].capitalize()} after {expected.steps[0, 0]} s."
+    expect(status(lab)).to_have_text(f"Robot 1: {first}")
+
+
+def the_reader_drives_among_others(lab: Locator) -> None:
+    """The others go on when the reader does, and nothing of it is a demonstration."""
+    lab.get_by_role("slider", name="robots on the map", exact=True).press("ArrowLeft")
+    choose(lab, "who drives", ME)
+    lab.get_by_label("the robot goes on by itself").uncheck()
+    lab.get_by_role("button", name="ahead").click()
+    lab.locator("canvas").press("ArrowLeft")
+    expect(lab.locator(".tally")).to_have_text(
+        "2 s, 15 robots: 0 arrived, 0 collided, 15 on the way."
+    )
+    save = lab.get_by_role("button", name="Download this demonstration")
+    expect(save).to_be_disabled()
+    choose(lab, "world", "30 obstacles")
+    expect(lab.get_by_text(re.compile(r"^Left out: \d+ obstacle"))).to_be_visible()
+    assert lab.page.evaluate(WIDER) <= 0
 
 
 def test_every_driver_drives(lab):
@@ -252,9 +299,6 @@ def test_robots_that_were_trained_and_kept_drive(lab):
     empty_storage(lab.page)
     expect(own).to_have_count(0)
     expect(drivers).to_have_value("LfD, then DAgger")  # the first of the list
-
-
-WIDER = "document.documentElement.scrollWidth - innerWidth"
 
 
 @pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])

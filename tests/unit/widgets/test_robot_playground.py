@@ -1,19 +1,38 @@
 """The playground's data and files: what it saves is loaded by Python, what Python saves is loaded by it."""
 
 import base64
+import re
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from robonav.benchmark.policies import method
 from robonav.lfd import load_demonstrations
 from robonav.networks import NetworkPolicy
 from robonav.networks.multilayer_perceptron import random_network
 from robonav.networks.weights import Weights, save_weights
-from robonav.robot import Encoder, navigate, random_worlds, turn_to_clearer_side
+from robonav.robot import (
+    Encoder,
+    follow_policy,
+    make_world,
+    navigate,
+    random_worlds,
+    turn_to_clearer_side,
+)
+from robonav.robot._fast import uniform
+from robonav.robot.team import (
+    Teams,
+    TeamSimulator,
+    crossing,
+    navigate_team,
+    random_teams,
+)
 from robonav.widgets.robot_playground import robot_playground
-from robonav.widgets.simulator import page_policy, page_world
+from robonav.widgets.simulator import CHOOSING, page_policy, page_world
 
+ROOT = Path(__file__).parents[3]
 FILE = """
 const bytes = page.demonstrationsFile([{ ...episode, world: episode.base }]);
 return btoa(String.fromCharCode(...bytes));
@@ -23,7 +42,9 @@ return btoa(String.fromCharCode(...bytes));
 @pytest.fixture
 def page(node):
     """The playground's whole front end under Node."""
-    return partial(node, ("simulator", "maps", "episode", "files", "robot_playground"))
+    return partial(
+        node, ("simulator", "team", "maps", "episode", "files", "robot_playground")
+    )
 
 
 @pytest.mark.parametrize(("obstacles", "moving"), [(12, 0), (6, 6), (0, 0)])
@@ -150,3 +171,185 @@ def test_every_input_of_a_network_has_a_name(page, encoder):
     names = page("return page.inputsOf(data);", shown)
     assert len(names) == encoder.size
     assert names[: len(encoder.sensors)] == [str(sensor) for sensor in encoder.sensors]
+
+
+TEAM = """
+const { world, policies, robots, steps } = data;
+const drivers = policies.map((policy) => page.driver(policy.network ? page.unpacked(policy) : policy));
+const others = page.crossing(robots, world.size).slice(1);
+const episode = page.makeEpisode(page.clearedFor(world, others), 2, others);
+for (let step = 0; step < steps; step += 1) {
+  episode.goAll(episode.robots.map((robot, r) => drivers[r % drivers.length](episode.seenBy(robot)).action));
+}
+return {
+  robots: episode.robots.map(({ path, outcome, met, sensing }) =>
+    ({ path: path.map(({ x, y, heading }) => [x, y, heading]), outcome, met, ranges: sensing.ranges })),
+  tally: page.tallyOf(episode.robots),
+};
+"""
+
+
+class AsInThePage:
+    """A shipped policy that draws its random numbers as the page does: by robot, step and action."""
+
+    def __init__(self, name):
+        self.policy = method(name)
+        self.packed = page_policy(self.policy)
+
+    def begin(self, simulator, rng):
+        keys = simulator.teams.keys
+
+        def select_actions(simulator, sensing, robots):
+            z, step = self.policy.logits(sensing), simulator.steps[robots[0]]
+            actions = range(z.shape[1])
+            drawn = [
+                [uniform(keys[robot], CHOOSING, step, action, 0) for action in actions]
+                for robot in robots
+            ]
+            return (z - self.policy.temperature * np.log(-np.log(drawn))).argmax(axis=1)
+
+        return select_actions
+
+
+class FreerSide:
+    """The rule, which needs no random numbers."""
+
+    def __init__(self):
+        self.packed = {"rule": "freer-side"}
+
+    def begin(self, simulator, rng):
+        return follow_policy(turn_to_clearer_side, rng)
+
+
+@pytest.mark.parametrize("robots", [1, 2, 5, 16])
+def test_several_robots_drive_in_the_page_as_in_python(page, robots):
+    teams = random_teams(1, 16, 8, 6, seed=18).first(robots)
+    company = [AsInThePage("dagger"), AsInThePage("lfd"), FreerSide(), AsInThePage("nirl")]  # fmt: skip
+    expected = navigate_team(
+        [company[robot % 4] for robot in range(robots)], teams, max_steps=50, record_paths=True
+    )  # fmt: skip
+    got = page(
+        TEAM,
+        {
+            "world": page_world(teams.worlds),
+            "policies": [policy.packed for policy in company],
+            "robots": robots,
+            "steps": 50,
+        },
+    )
+    for robot, path in zip(got["robots"], expected.paths, strict=True):
+        np.testing.assert_allclose(robot["path"], path, rtol=0, atol=1e-9)
+    outcomes = [robot["outcome"].replace("running", "out of steps") for robot in got["robots"]]  # fmt: skip
+    assert outcomes == expected.outcome[0].tolist()
+    assert [robot["met"] for robot in got["robots"]] == expected.met[0].tolist()
+    assert got["tally"] == {
+        "arrived": expected.success.sum(),
+        "collided": expected.collision.sum(),
+        "met": expected.met.sum(),
+        "running": (expected.outcome == "out of steps").sum(),
+    }
+    if robots == 16:
+        assert 0 < expected.met.sum() < 16
+
+
+def test_one_robot_of_a_team_drives_as_the_robot_that_is_alone(page):
+    world = random_worlds(1, 10, 5, seed=4)
+    alone = navigate(turn_to_clearer_side, world, max_steps=50, record_paths=True)
+    shown = {"world": page_world(world), "policies": [FreerSide().packed], "robots": 1, "steps": 50}  # fmt: skip
+    (robot,) = page(TEAM, shown)["robots"]
+    np.testing.assert_allclose(robot["path"], alone.paths[0], rtol=0, atol=1e-9)
+
+
+def test_each_robot_senses_the_others_as_in_python(page):
+    teams = Teams(make_world(), [[(30, 50), (35, 52), (33, 44)]], [[(80, 50), (20, 50), (50, 90)]])  # fmt: skip
+    simulator = TeamSimulator(teams)
+    ends = [
+        {"start": list(start), "target": list(target)}
+        for start, target in zip(
+            teams.starts[0].tolist(), teams.targets[0].tolist(), strict=True
+        )
+    ]
+    body = """
+      const [first, ...others] = data.ends;
+      const episode = page.makeEpisode({ ...data.world, ...first }, 2, others);
+      return episode.robots.map(({ sensing }) => sensing);
+    """
+    got = page(body, {"world": page_world(teams.worlds), "ends": ends})
+    seen = simulator.sense()
+    np.testing.assert_allclose([s["ranges"] for s in got], seen.ranges, rtol=0, atol=1e-9)  # fmt: skip
+    assert (seen.ranges < 10).any(axis=1).all()
+    assert [s["region"] for s in got] == seen.target_region.tolist()
+
+
+def test_robots_that_meet_within_a_second_have_collided(page):
+    """At both ends of the second they are more than 2 m apart; in between they are 1.98 m apart."""
+    ends = [
+        {"start": [50, 50], "target": [90, 50]},
+        {"start": [52, 50.8], "target": [52, 90]},
+    ]
+    body = """
+      const episode = page.makeEpisode({ ...data.world, ...data.ends[0] }, 4, [data.ends[1]]);
+      episode.goAll([0, 0], false);
+      return episode.robots.map(({ outcome, met }) => [outcome, met]);
+    """
+    got = page(body, {"world": page_world(make_world()), "ends": ends})
+    assert got == [["collided", True]] * 2
+    teams = Teams(make_world(), [[end["start"] for end in ends]], [[end["target"] for end in ends]])  # fmt: skip
+    simulator = TeamSimulator(teams, 4.0)
+    simulator.step(np.array([0, 0]))
+    assert simulator.met.all()
+
+
+def test_the_answers_of_the_page_are_what_its_robots_do(page):
+    answer = re.search(
+        r"Answers to 7\n(.*?)```",
+        (ROOT / "book/playground.md").read_text("utf-8"),
+        re.S,
+    )
+    assert answer
+    world = page_world(random_worlds(1, 0, seed=0))
+    body = TEAM.replace("step < steps", "!episode.over() && step < steps").replace(
+        "return {", "return { seconds: episode.step,"
+    )
+
+    def drive(policy, robots):
+        shown = {"world": world, "policies": [policy], "robots": robots, "steps": 500}
+        got = page(body, shown)
+        return got["tally"], got["seconds"]
+
+    straight, seconds = drive({"rule": "straight"}, 16)
+    assert straight == {"arrived": 0, "collided": 16, "met": 16, "running": 0}
+    freer, _ = drive({"rule": "freer-side"}, 16)
+    assert freer["collided"] == freer["met"]
+    nnql, long = drive(page_policy(method("nnql")), 16)
+    two, short = drive(page_policy(method("nnql")), 2)
+    assert two["arrived"] == 2
+    for sentence in (
+        f"`straight`, {straight['arrived']} of 16 arrive",
+        f"collide after {seconds} s",
+        f"`freer-side`, {freer['arrived']} arrive, and {freer['met']} collide with a robot",
+        f"With NNQL, {nnql['arrived']} arrive",
+        f"the last robot arrives after {long} s",
+        f"the last one arrives after {short} s",
+    ):
+        assert sentence in answer[1]
+
+
+@pytest.mark.parametrize("size", [100, 60])
+def test_robots_begin_where_pythons_do(page, size):
+    ends = page("return page.crossing(16, data);", size)
+    starts, targets = crossing(16, size)
+    np.testing.assert_allclose([end["start"] for end in ends], starts, atol=1e-12)
+    np.testing.assert_allclose([end["target"] for end in ends], targets, atol=1e-12)
+
+
+def test_what_stands_on_the_start_of_a_robot_is_left_out(page):
+    body = """
+      const at = (x, y, a) => ({ circle: true, x, y, a, b: 0, turned: 0, speed: 0, heading: 0 });
+      const world = { ...data, obstacles: [at(90, 14, 3), at(10, 90, 1), at(50, 50, 3), at(40, 14, 3)] };
+      const left = (robots) => page.clearedFor(world, page.crossing(robots, 100).slice(1)).obstacles;
+      return [1, 4].map((robots) => left(robots).map(({ x }) => x));
+    """
+    alone, four = page(body, page_world(make_world()))
+    assert alone == [90, 10, 50, 40]
+    assert four == [50, 40]
