@@ -85,20 +85,24 @@ def player(
 
 
 def _frames(animation: Animation, frames_per_second: int, mode: str) -> str:
-    """Return matplotlib's own page of an animation, with frames of transparent background."""
+    """Return matplotlib's own page of an animation, with frames of transparent background.
+
+    The frames are pictures in lossless WebP, which need about half of the bytes of PNG.
+    """
     from matplotlib.animation import HTMLWriter
 
     class Transparent(HTMLWriter):
         def grab_frame(self, **options: Any) -> None:
             # matplotlib would lay it on white
-            super().grab_frame(**{**options, "facecolor": "none"})
+            lossless = {"facecolor": "none", "pil_kwargs": {"lossless": True}}
+            super().grab_frame(**{**options, **lossless})
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "animation.html")
-        animation.save(
-            str(path),
-            writer=Transparent(
-                fps=frames_per_second, embed_frames=True, default_mode=mode
-            ),
+        writer = Transparent(
+            fps=frames_per_second, embed_frames=True, default_mode=mode
         )
+        writer.supported_formats = ["webp"]
+        writer.frame_format = "webp"
+        animation.save(str(path), writer=writer)
         return path.read_text("utf-8")

@@ -14,6 +14,7 @@ import check_site
 import citations
 import drills
 import notebooks
+import offline
 import package_code
 import package_digest
 import pytest
@@ -409,3 +410,16 @@ def test_the_page_of_progress_notes_each_file_of_the_drills_once(
     assert all(name in shown for name in drills.DRILLS)
     assert any(path.endswith("question.py") for path in noted)
     assert len(noted) == len(set(noted))
+
+
+def test_files_that_no_browser_loads_are_removed(tmp_path: Path) -> None:
+    fonts, words = tmp_path / "_static/fonts", tmp_path / "_static/locales/de"
+    fonts.mkdir(parents=True)
+    words.mkdir(parents=True)
+    for name in ("icons.woff2", "icons.ttf", "only.ttf", "theme.css", "theme.css.map"):
+        (fonts / name).write_text("")
+    for name in ("theme.po", "theme.mo"):
+        (words / name).write_text("")
+    offline.remove_what_no_browser_loads(SimpleNamespace(outdir=tmp_path), None)
+    left = {path.name for path in tmp_path.rglob("*") if path.is_file()}
+    assert left == {"icons.woff2", "only.ttf", "theme.css"}

@@ -14,6 +14,7 @@ mpl.use("agg")
 
 from matplotlib import pyplot as plt
 from matplotlib.animation import FuncAnimation
+from PIL import Image
 
 from robonav.plots.player import player
 
@@ -35,13 +36,34 @@ def test_picture_slider_and_buttons_have_names():
     assert "label=" not in re.match(r"<form[^>]*>", form)[0]
 
 
+def frames_of(page: str) -> list[bytes]:
+    frames = re.findall(r'"data:image/webp;base64,(.*?)"', page, re.DOTALL)
+    return [base64.b64decode(frame.replace("\\", "")) for frame in frames]
+
+
+def pixels_of(picture: bytes) -> np.ndarray:
+    """Red, green, blue and opacity; where nothing is to be seen, the colour does not count."""
+    pixels = np.asarray(Image.open(io.BytesIO(picture)).convert("RGBA"))
+    return np.where(pixels[:, :, 3:] == 0, 0, pixels)
+
+
 def test_frames_let_the_page_through():
-    page = player(moving_dot(), description="A dot moves.").data
-    frames = re.findall(r'"data:image/png;base64,(.*?)"', page, re.DOTALL)
+    frames = frames_of(player(moving_dot(), description="A dot moves.").data)
     assert len(frames) == 2
     for frame in frames:
-        pixels = plt.imread(io.BytesIO(base64.b64decode(frame.replace("\\", ""))))
-        assert np.isclose(pixels[0, 0, 3], 0)
+        assert pixels_of(frame)[0, 0, 3] == 0
+
+
+def test_frames_are_as_matplotlib_draws_them():
+    frames = frames_of(player(moving_dot(), description="A dot moves.").data)
+    figure, axes = plt.subplots(figsize=(1, 1))
+    (dot,) = axes.plot([0], [0], "o")
+    for at, frame in enumerate(frames):
+        dot.set_data([at], [at])
+        drawn = io.BytesIO()
+        figure.savefig(drawn, format="png", facecolor="none")
+        np.testing.assert_array_equal(pixels_of(frame), pixels_of(drawn.getvalue()))
+    plt.close(figure)
 
 
 def test_nothing_comes_from_elsewhere():
