@@ -24,7 +24,7 @@ from .networks import ActorCritic
 
 TEAM_RULES = RULES | {
     "robots": lambda name, value: check_integer(name, value, at_least=1),
-    "maps": lambda name, value: check_integer(name, value, at_least=1),
+    "n_worlds": lambda name, value: check_integer(name, value, at_least=1),
     "obstacles": lambda name, value: check_integer(name, value, at_least=0),
     "max_steps": lambda name, value: check_integer(name, value, at_least=1),
     "speed": check_positive,
@@ -49,7 +49,7 @@ class TeamTraining:
     Examples
     --------
     >>> from robonav.deep import train_team
-    >>> train_team(robots=4, updates=2, maps=2, seed=0).arrived.shape
+    >>> train_team(robots=4, updates=2, n_worlds=2, seed=0).arrived.shape
     (2,)
     """
 
@@ -70,7 +70,7 @@ def train_team(
     robots: int = 8,
     updates: int = 60,
     *,
-    maps: int = 8,
+    n_worlds: int = 8,
     obstacles: int = 10,
     speed: float = 2.0,
     max_steps: int = 300,
@@ -90,7 +90,7 @@ def train_team(
         R, on each map.
     updates : int
         How often the robots act, and the networks learn from it.
-    maps : int
+    n_worlds : int
         N, new ones for each update.
     obstacles : int
         Obstacles of a map that stand still.
@@ -118,14 +118,14 @@ def train_team(
     Examples
     --------
     >>> from robonav.deep import train_team
-    >>> train_team(robots=4, updates=1, maps=2, seed=0).policy.network.sizes
+    >>> train_team(robots=4, updates=1, n_worlds=2, seed=0).policy.network.sizes
     (12, 32, 5)
     """
     went = []
 
     def draw(rng: np.random.Generator) -> TeamSimulator:
         """Put teams at the start of new maps."""
-        teams = random_teams(maps, robots, obstacles, seed=rng)
+        teams = random_teams(n_worlds, robots, obstacles, seed=rng)
         return TeamSimulator(teams, speed, max_steps=max_steps)
 
     def record(simulator: Simulator) -> None:

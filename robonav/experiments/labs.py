@@ -61,7 +61,7 @@ def from_demonstrations(case: Case, seed: int, scale: str) -> Numbers:
         x,
         y,
         hidden=int(case["hidden"]),
-        regularisation=float(case["lambda"]),
+        regularisation=float(case["regularisation"]),
         iterations=EARLY[-1],
         seed=seed,
         record=True,
@@ -137,7 +137,11 @@ EXPERIMENTS = (
         name="lab-lfd",
         title="Training lab: learning from demonstration in 27 settings",
         cases=_combinations(
-            {"demonstrations": (5, 25, 40), "lambda": (0, 1, 10), "hidden": (2, 8, 20)}
+            {
+                "demonstrations": (5, 25, 40),
+                "regularisation": (0, 1, 10),
+                "hidden": (2, 8, 20),
+            }
         ),
         run=from_demonstrations,
         seeds={"quick": 1, "thesis": 3},

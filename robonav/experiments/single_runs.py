@@ -19,7 +19,7 @@ from robonav.lfd import (
     demonstrate_by_hand,
     plan,
     plan_on_grid,
-    record,
+    record_demonstrations,
     sketch,
 )
 from robonav.nnql import NavigationTask, TrainingResult, train
@@ -70,7 +70,7 @@ def navigation(case: Case, seed: int, scale: str) -> Numbers:
         seed=seed,
     )
     assert episode.paths is not None
-    return path_of(episode.paths[0]) | {"arrived": float(episode.success[0])}
+    return path_of(episode.paths[0]) | {"success": float(episode.success[0])}
 
 
 def search(case: Case, seed: int, scale: str) -> Numbers:
@@ -100,7 +100,7 @@ def training_episode(case: Case, seed: int, scale: str) -> Numbers:
     trained = training()
     assert trained.paths is not None
     return path_of(trained.paths[0][number]) | {
-        "arrived": float(trained.successes[0, number])
+        "success": float(trained.successes[0, number])
     }
 
 
@@ -118,7 +118,7 @@ def slipping_demonstration(case: Case, seed: int, scale: str) -> Numbers:
     """Return a demonstration of an expert whose turns sometimes miss by 30 degrees (Fig. 5.5)."""
     world, slip = world_of(case), neighbour_slip(float(case["slip"]))
     executed, intended = (
-        record(
+        record_demonstrations(
             ComputerExpert(), world, slip=slip, intended=as_chosen, reflex=EXACT_REFLEX
         )
         for as_chosen in (False, True)

@@ -6,7 +6,7 @@ from .computer_expert import ComputerExpert, demonstrate
 from .dagger import DaggerResult, collect_with_expert_labels, dagger
 from .dataset_summary import DatasetSummary, summarise_dataset
 from .demonstration_files import load_demonstrations, save_demonstrations
-from .demonstrations import Demonstrations, Expert, concatenate, record
+from .demonstrations import Demonstrations, Expert, concatenate, record_demonstrations
 from .human_expert import (
     PathFollower,
     demonstrate_by_hand,
@@ -44,7 +44,7 @@ __all__ = [
     "path_clearance",
     "plan",
     "plan_on_grid",
-    "record",
+    "record_demonstrations",
     "save_demonstrations",
     "sketch",
     "smooth_path",

@@ -20,7 +20,7 @@ from robonav.robot.worlds import LARGEST_MAP
 from robonav.validation import check_instance, check_real
 
 from . import _fast
-from .demonstrations import Actions, Demonstrations, record
+from .demonstrations import Actions, Demonstrations, record_demonstrations
 from .planning import MOVE, as_single_steps, plan, steps_in_move
 
 MARGIN = (
@@ -277,7 +277,7 @@ def demonstrate(
     check_real(
         "margin", margin, at_most=check_instance("worlds", worlds, Worlds).size / 2
     )
-    recorded = record(
+    recorded = record_demonstrations(
         ComputerExpert(margin, caution),
         worlds,
         speed=speed,

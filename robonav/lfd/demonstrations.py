@@ -186,7 +186,7 @@ Expert = Callable[[Simulator, Actions], Actions]
 """``expert(simulator, robots)`` returns the actions (n,) that the robots with these indices (n,) should take now."""
 
 
-def record(
+def record_demonstrations(
     expert: Expert,
     worlds: Worlds,
     *,
@@ -230,9 +230,9 @@ def record(
 
     Examples
     --------
-    >>> from robonav.lfd import ComputerExpert, record
+    >>> from robonav.lfd import ComputerExpert, record_demonstrations
     >>> from robonav.robot import random_worlds
-    >>> record(ComputerExpert(), random_worlds(2, obstacles=10, seed=1)).outcome.tolist()
+    >>> record_demonstrations(ComputerExpert(), random_worlds(2, obstacles=10, seed=1)).outcome.tolist()
     ['arrived', 'arrived']
     """
     check_callable("expert", expert, "expert(simulator, robots)")

@@ -33,7 +33,7 @@ from robonav.validation import (
 )
 
 from .computer_expert import ComputerExpert
-from .demonstrations import LEARNED, Actions, Demonstrations, record
+from .demonstrations import LEARNED, Actions, Demonstrations, record_demonstrations
 
 Floats = NDArray[np.float64]
 
@@ -147,11 +147,11 @@ class PathFollower:
 
     Examples
     --------
-    >>> from robonav.lfd import PathFollower, record, smooth_path
+    >>> from robonav.lfd import PathFollower, record_demonstrations, smooth_path
     >>> from robonav.robot import make_world
     >>> world = make_world(circles=[(50, 50, 5)])
     >>> path = smooth_path([world.starts[0], (40, 65), world.targets[0]])
-    >>> record(PathFollower([path]), world).outcome.tolist()
+    >>> record_demonstrations(PathFollower([path]), world).outcome.tolist()
     ['arrived']
     """
 
@@ -276,7 +276,7 @@ def demonstrate_by_hand(
                 f"key_points[{number}] must lead clear of obstacles: near ({x:.1f}, {y:.1f}) their path comes nearer "
                 f"than {COLLISION_DISTANCE:g} m to one"
             )
-    return record(
+    return record_demonstrations(
         PathFollower(paths),
         worlds,
         speed=speed,

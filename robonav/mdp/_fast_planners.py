@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from . import _fast
 from .evaluation import ValueHistory, error_limit, evaluation_residual
 from .models import FiniteMDP
-from .solutions import Solution, greedy_policy
+from .solutions import Solution, greedy_actions
 
 Floats = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ def value_iteration(
         residual = max(-least, most)
         if residual <= limit:
             break
-    policy = greedy_policy(mdp, values, tolerance)
+    policy = greedy_actions(mdp, values, tolerance)
     converged = residual <= limit
     return Solution(values, policy, iteration, residual, converged, history.rows)
 
@@ -71,7 +71,7 @@ def modified_policy_iteration(
         for _ in range(sweeps):
             _fast.policy_sweep(*mdp.arrays, values, updated, policy)
             values, updated = updated, values
-    policy = greedy_policy(mdp, values, tolerance)
+    policy = greedy_actions(mdp, values, tolerance)
     converged = residual <= limit
     if converged and mdp.discount < 1:
         missing = mdp.discount / (1 - mdp.discount) * (least + most) / 2
@@ -96,7 +96,7 @@ def in_place_value_iteration(
         history.append(values)
         if residual <= limit:
             break
-    policy = greedy_policy(mdp, values, tolerance)
+    policy = greedy_actions(mdp, values, tolerance)
     converged = residual <= limit
     return Solution(values, policy, iteration, residual, converged, history.rows)
 
@@ -119,7 +119,7 @@ def prioritized_sweeping(
         limit,
         max_backups,
     )
-    policy = greedy_policy(mdp, values, tolerance)
+    policy = greedy_actions(mdp, values, tolerance)
     return Solution(values, policy, backups, residual, residual <= limit)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from .evaluation import error_limit
 from .models import FiniteMDP
 from .planner import planner
-from .solutions import Solution, first_values, greedy_policy
+from .solutions import Solution, first_values, greedy_actions
 
 
 @planner(start=first_values, limit=FiniteMDP.residual_for, twin="_fast_planners")
@@ -69,7 +69,7 @@ def in_place_value_iteration(
             values[state] = q.max()  # the states after this one use the new value
         if residual <= epsilon:
             break
-    policy = greedy_policy(mdp, values, tolerance)
+    policy = greedy_actions(mdp, values, tolerance)
     return Solution(values, policy, iteration, residual, residual <= epsilon)
 
 
@@ -135,5 +135,5 @@ def prioritized_sweeping(
         predecessors, probabilities = likeliest.indices[row], likeliest.data[row]
         priority[predecessors] += mdp.discount * probabilities * change
         backups += 1
-    policy, residual = greedy_policy(mdp, values, tolerance), float(priority.max())
+    policy, residual = greedy_actions(mdp, values, tolerance), float(priority.max())
     return Solution(values, policy, backups, residual, residual <= epsilon)

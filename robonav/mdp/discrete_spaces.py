@@ -10,12 +10,12 @@ from gymnasium import spaces
 from gymnasium.wrappers import TransformAction, TransformObservation
 
 
-def count(name: str, space: gym.Space[Any]) -> int:
+def space_size(name: str, space: gym.Space[Any]) -> int:
     """Number of elements of a discrete space: Discrete, MultiDiscrete or a tuple of them; TypeError otherwise.
 
     Examples
     --------
-    >>> count("space", spaces.MultiDiscrete([3, 4]))
+    >>> space_size("space", spaces.MultiDiscrete([3, 4]))
     12
     """
     if isinstance(space, spaces.Discrete):
@@ -23,7 +23,7 @@ def count(name: str, space: gym.Space[Any]) -> int:
     if isinstance(space, spaces.MultiDiscrete):
         return int(np.prod(space.nvec))
     if isinstance(space, spaces.Tuple):
-        return int(np.prod([count(name, part) for part in space]))
+        return int(np.prod([space_size(name, part) for part in space]))
     raise TypeError(
         f"{name} must be discrete (Discrete, MultiDiscrete or a tuple of Discrete), got {space}"
     )
@@ -47,7 +47,7 @@ def number(space: gym.Space[Any], element: Any) -> int:
         )
     place = 0
     for part, piece in zip(space, element, strict=True):  # type: ignore[call-overload]
-        place = place * count("part", part) + number(part, piece)
+        place = place * space_size("part", part) + number(part, piece)
     return place
 
 
@@ -70,7 +70,7 @@ def element(space: gym.Space[Any], place: int) -> Any:
         )
     pieces = []
     for part in reversed(space.spaces):  # type: ignore[attr-defined]
-        place, digit = divmod(place, count("part", part))
+        place, digit = divmod(place, space_size("part", part))
         pieces.append(element(part, digit))
     return tuple(reversed(pieces))
 
@@ -93,7 +93,7 @@ def discretise_spaces(env: gym.Env[Any, Any]) -> gym.Env[int, int]:
     """
     env = discretise_actions(env)
     observations = env.observation_space
-    states = count("env.observation_space", observations)
+    states = space_size("env.observation_space", observations)
     if not (isinstance(observations, spaces.Discrete) and observations.start == 0):
         env = TransformObservation(
             env, lambda seen: number(observations, seen), spaces.Discrete(states)
@@ -114,7 +114,7 @@ def discretise_actions(env: gym.Env[Any, Any]) -> gym.Env[Any, int]:
             f"env must be a Gymnasium environment, got {type(env).__name__}"
         )
     actions = env.action_space
-    size = count("env.action_space", actions)
+    size = space_size("env.action_space", actions)
     if not (isinstance(actions, spaces.Discrete) and actions.start == 0):
         env = TransformAction(
             env, lambda action: element(actions, action), spaces.Discrete(size)
@@ -130,6 +130,6 @@ def space_sizes(env: gym.Env[int, int]) -> tuple[int, int]:
     >>> space_sizes(gym.make("FrozenLake-v1"))
     (16, 4)
     """
-    return count("env.observation_space", env.observation_space), count(
+    return space_size("env.observation_space", env.observation_space), space_size(
         "env.action_space", env.action_space
     )

@@ -67,7 +67,7 @@ from .solutions import (
     first_policy,
     first_values,
     first_values_below,
-    greedy_policy,
+    greedy_actions,
     policy_to_start_from,
 )
 
@@ -131,7 +131,7 @@ def value_iteration(
         loss = 2 * discount / (1 - discount) * residual if discount < 1 else residual
         if loss <= tolerance:  # 6
             break
-    policy = greedy_policy(mdp, values, tolerance)  # 7: argmax of Q(s, a)  Eq. (2.25)
+    policy = greedy_actions(mdp, values, tolerance)  # 7: argmax of Q(s, a)  Eq. (2.25)
     return Solution(values, policy, iteration, residual, loss <= tolerance)
 
 
@@ -289,7 +289,7 @@ def modified_policy_iteration(
         transitions, rewards = mdp.induced_chain(policy)  # T_pi (S, S) and r_pi (S,)
         for _ in range(sweeps):  # evaluate  Eq. (2.24)
             values = rewards + discount * (transitions @ values)
-    policy = greedy_policy(mdp, values, tolerance)
+    policy = greedy_actions(mdp, values, tolerance)
     converged = loss <= tolerance
     if converged and discount < 1:  # V* - V lies between two bounds: take their middle
         missing = discount / (1 - discount) * (change.min() + change.max()) / 2

@@ -109,9 +109,9 @@ def generalized_policy_iteration(
             values = policy_evaluation(mdp, policy)
         else:  # or move the values towards those of the policy, Eq. (2.24)
             for _ in range(int(sweeps)):
-                values = action_values(mdp, values)[state, policy]
+                values = one_step_action_values(mdp, values)[state, policy]
         rows.append((values, policy, False))
-        q = action_values(mdp, values)
+        q = one_step_action_values(mdp, values)
         rounding = largest_rounding(mdp, policy, values, exact=sweeps == math.inf)
         greedy = keep_ties(mdp, policy, values, q, rounding)  # improve, Eq. (2.25)
         rows.append((values, greedy, True))
@@ -125,16 +125,16 @@ def generalized_policy_iteration(
     return history_of(mdp, rows)
 
 
-def action_values(mdp: FiniteMDP, values: Floats) -> Floats:
+def one_step_action_values(mdp: FiniteMDP, values: Floats) -> Floats:
     """Action values (S, A) one step ahead; without discount at least 0 for staying in zero-reward states.
 
     Examples
     --------
     >>> import numpy as np
     >>> from robonav.mdp import FiniteMDP
-    >>> from robonav.mdp.generalized_policy_iteration import action_values
+    >>> from robonav.mdp.generalized_policy_iteration import one_step_action_values
     >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
-    >>> action_values(mdp, np.array([2.0]))
+    >>> one_step_action_values(mdp, np.array([2.0]))
     array([[1., 2.]])
     """
     q = mdp.rewards + mdp.discount * mdp.expected_next_values(values)

@@ -34,7 +34,7 @@ from ._arguments import checked
 from .convergence import warn_not_converged
 from .evaluation import with_record
 from .models import FiniteMDP
-from .solutions import Solution, greedy_policy
+from .solutions import Solution, greedy_actions
 
 
 def planner(
@@ -96,5 +96,5 @@ def with_policies(mdp: FiniteMDP, solution: Solution, tolerance: float) -> Solut
     """The solution with the greedy policy of each row of its history, unless it has them already."""
     if solution.history is None or solution.policies is not None:
         return solution
-    before = [greedy_policy(mdp, row, tolerance) for row in solution.history[:-1]]
+    before = [greedy_actions(mdp, row, tolerance) for row in solution.history[:-1]]
     return replace(solution, policies=np.stack([*before, solution.policy]))

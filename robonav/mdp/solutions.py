@@ -120,16 +120,16 @@ def policy_to_start_from(mdp: FiniteMDP) -> Actions:
     return np.where(np.isfinite(steps), shortest, mdp.rewards.argmax(axis=1))
 
 
-def greedy_policy(mdp: FiniteMDP, values: Floats, tolerance: float) -> Actions:
+def greedy_actions(mdp: FiniteMDP, values: Floats, tolerance: float) -> Actions:
     """Greedy policy (S,) for optimal values known to within ``tolerance``; without discount one that ends.
 
     Examples
     --------
     >>> from robonav.mdp import FiniteMDP
     >>> mdp = FiniteMDP([[[1.0]], [[1.0]]], [[0.0, 1.0]], discount=0.5)
-    >>> greedy_policy(mdp, np.array([2.0]), 1e-6)
+    >>> greedy_actions(mdp, np.array([2.0]), 1e-6)
     array([1])
     """
     if mdp.discount < 1:
         return mdp.greedy(values)
-    return undiscounted.greedy_policy(mdp, values, tolerance)
+    return undiscounted.greedy_actions(mdp, values, tolerance)

@@ -7,7 +7,7 @@ contraction only under proper policies, which raises three problems that discoun
   of such actions are clamped at 0 from below (:func:`clamp_undiscounted`), and sweeps start from below
   (:func:`proper_values`).
 - An action that waits can be as greedy as the one that goes to the goal. So among greedy actions those are taken that
-  lead towards a terminal state (:func:`greedy_policy`).
+  lead towards a terminal state (:func:`greedy_actions`).
 - A policy that collects rewards forever has no finite value (:func:`policy_values` refuses it).
 """
 
@@ -167,7 +167,9 @@ def proper_values(mdp: FiniteMDP, start: Floats) -> Floats:
     return np.where(staying, np.maximum(values, 0), values)
 
 
-def greedy_policy(mdp: FiniteMDP, values: Floats, tolerance: float) -> NDArray[np.intp]:
+def greedy_actions(
+    mdp: FiniteMDP, values: Floats, tolerance: float
+) -> NDArray[np.intp]:
     """Greedy policy (S,) that also ends, for optimal values known to within ``tolerance``.
 
     An action that waits forever can be as greedy as one that goes on, but its return is 0. So of the greedy
@@ -178,7 +180,7 @@ def greedy_policy(mdp: FiniteMDP, values: Floats, tolerance: float) -> NDArray[n
     --------
     >>> from robonav.mdp import GridWorld
     >>> corridor = GridWorld("S . G", step_reward=-1).mdp(1.0)
-    >>> greedy_policy(corridor, np.array([-2.0, -1.0, 0.0]), 1e-9)[:2]
+    >>> greedy_actions(corridor, np.array([-2.0, -1.0, 0.0]), 1e-9)[:2]
     array([1, 1])
     """
     q = clamp_undiscounted(mdp, mdp.action_values(values))

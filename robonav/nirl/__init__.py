@@ -11,7 +11,7 @@ from .apprenticeship import (
 from .benchmark_mdps import TERRAIN_KINDS, TRUE_WEIGHTS, terrain
 from .decisions import ENCODER, Decisions, expert_decisions
 from .feature_expectations import (
-    action_values,
+    action_values_under_reward,
     decision_feature_sums,
     discounted_feature_sums,
     empirical_expectations,
@@ -133,7 +133,7 @@ __all__ = [
     "Trajectories",
     "accuracy",
     "action_block",
-    "action_values",
+    "action_values_under_reward",
     "all_action_features",
     "apprenticeship",
     "apprenticeship_learning",

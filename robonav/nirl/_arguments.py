@@ -37,7 +37,7 @@ def count(name: str, value: Any) -> int:
 
 def learning_task(name: str, value: Any) -> Any:
     """A task on which a policy makes episodes, see :class:`robonav.nirl.Task`."""
-    needed = ("n_inputs", "n_actions", "rollout", "greedy_policy")
+    needed = ("n_inputs", "n_actions", "rollout", "greedy")
     if isinstance(value, type) or not all(hasattr(value, part) for part in needed):
         raise TypeError(
             f"{name} must be a task such as RobotTask() or TabularTask(mdp), got {type(value).__name__}"

@@ -16,7 +16,9 @@ from .reward_free_mdp import RewardFreeMDP
 Floats = NDArray[np.float64]
 
 
-def action_values(mdp: RewardFreeMDP, policy: ArrayLike, weights: ArrayLike) -> Floats:
+def action_values_under_reward(
+    mdp: RewardFreeMDP, policy: ArrayLike, weights: ArrayLike
+) -> Floats:
     """Action values of a policy: the expected discounted sum of its rewards, Eq. (5.1).
 
     The sum's first term is the reward of the first action; the rest is the discounted value of the next state.
@@ -36,9 +38,9 @@ def action_values(mdp: RewardFreeMDP, policy: ArrayLike, weights: ArrayLike) -> 
 
     Examples
     --------
-    >>> from robonav.nirl import TRUE_WEIGHTS, action_values, terrain
+    >>> from robonav.nirl import TRUE_WEIGHTS, action_values_under_reward, terrain
     >>> grid, mdp = terrain()
-    >>> action_values(mdp, [0] * mdp.n_states, TRUE_WEIGHTS).shape
+    >>> action_values_under_reward(mdp, [0] * mdp.n_states, TRUE_WEIGHTS).shape
     (42, 4)
     """
     rewarded = mdp.with_reward(weights)

@@ -113,7 +113,7 @@ class Task(Protocol):
         6
         """
 
-    def greedy_policy(self, network: Network) -> Any:
+    def greedy(self, network: Network) -> Any:
         """The policy that always takes the action with the largest output of a network.
 
         Parameters
@@ -130,7 +130,7 @@ class Task(Protocol):
         --------
         >>> from robonav.networks import random_network
         >>> from robonav.nirl import TabularTask, terrain
-        >>> TabularTask(terrain()[1]).greedy_policy(random_network((42, 5, 4), seed=0)).shape
+        >>> TabularTask(terrain()[1]).greedy(random_network((42, 5, 4), seed=0)).shape
         (42,)
         """
 
@@ -185,7 +185,7 @@ class RobotTask:
     def n_actions(self) -> int:
         return LEARNED
 
-    def greedy_policy(self, network: Network) -> NetworkPolicy:
+    def greedy(self, network: Network) -> NetworkPolicy:
         """The network as a policy that :func:`robonav.robot.navigate` takes.
 
         Parameters
@@ -202,7 +202,7 @@ class RobotTask:
         >>> from robonav.networks import random_network
         >>> from robonav.nirl import RobotTask
         >>> task = RobotTask()
-        >>> task.greedy_policy(random_network((task.n_inputs, 5, task.n_actions), seed=0)).network.sizes
+        >>> task.greedy(random_network((task.n_inputs, 5, task.n_actions), seed=0)).network.sizes
         (17, 5, 5)
         """
         return NetworkPolicy(network, self.encoder)
@@ -366,7 +366,7 @@ class TabularTask:
     def n_actions(self) -> int:
         return self.mdp.n_actions
 
-    def greedy_policy(self, network: Network) -> NDArray[np.intp]:
+    def greedy(self, network: Network) -> NDArray[np.intp]:
         """The best action of each state.
 
         Parameters
@@ -382,7 +382,7 @@ class TabularTask:
         --------
         >>> from robonav.networks import random_network
         >>> from robonav.nirl import TabularTask, terrain
-        >>> TabularTask(terrain()[1]).greedy_policy(random_network((42, 5, 4), seed=0)).shape
+        >>> TabularTask(terrain()[1]).greedy(random_network((42, 5, 4), seed=0)).shape
         (42,)
         """
         return network.decide(np.eye(self.mdp.n_states))

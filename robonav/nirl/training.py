@@ -274,7 +274,7 @@ class IRLRecorder:
         network = self._networks[chosen]
         trained_for = weights[max(chosen - 1, 0)] if n else np.zeros(shape)
         return IRLResult(
-            self._task.greedy_policy(network), trained_for, history, chosen, network
+            self._task.greedy(network), trained_for, history, chosen, network
         )
 
 

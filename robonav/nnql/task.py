@@ -97,7 +97,7 @@ class NavigationTask:
         The reward of a step, by default that of Table 4.1.
     reflex : Reflex
         What the robot does before the policy is asked.
-    maps : int, optional
+    n_worlds : int, optional
         Number of different maps, through which the episodes of a seed go again and again. By default each episode has
         a new map.
 
@@ -121,13 +121,13 @@ class NavigationTask:
     )
     reward: Reward = reward
     reflex: ReflexRule | None = REFLEX
-    maps: int | None = None
+    n_worlds: int | None = None
 
     def __post_init__(self) -> None:
         check_positive("speed", self.speed)
         check_integer("max_steps", self.max_steps, at_least=1)
-        if self.maps is not None:
-            check_integer("maps", self.maps, at_least=1)
+        if self.n_worlds is not None:
+            check_integer("n_worlds", self.n_worlds, at_least=1)
 
     def worlds(self, seeds: Sequence[int], first: int, last: int) -> Worlds:
         """The worlds of episodes ``first`` to ``last - 1`` of each seed, one seed after the other.
@@ -180,7 +180,7 @@ class NavigationTask:
 
     def _keys(self, seed: int, episodes: NDArray[np.int64]) -> NDArray[np.uint32]:
         """The keys of the worlds of these episodes of a seed."""
-        chosen = episodes if self.maps is None else episodes % self.maps
+        chosen = episodes if self.n_worlds is None else episodes % self.n_worlds
         own = int(make_rng(seed, WORLDS).integers(2**63))
         return world_keys(int(chosen.max()) + 1, own)[chosen]
 

@@ -28,7 +28,7 @@ from robonav.validation import (
 from ._arguments import RULES
 from ._fast.agents import make_agent
 from ._fast.checkpoints import load_checkpoint, save_checkpoint
-from ._fast.networks import BatchedNetworks, unpacked
+from ._fast.networks import BatchedNetworks, vectors_to_parameters
 from ._fast.trainer import EpisodeStatistics, Trainer
 from .dqn import dqn
 from .nfq import nfq
@@ -262,12 +262,12 @@ def _result(
         past = np.array(
             [[*begun, parameters[k]] for k, begun in enumerate(statistics.parameters)]
         )
-        history = unpacked(past, sizes)
+        history = vectors_to_parameters(past, sizes)
         paths = tuple(tuple(episodes) for episodes in statistics.paths)
     return TrainingResult(
         method,
         seeds,
-        unpacked(parameters, sizes),
+        vectors_to_parameters(parameters, sizes),
         task.encoder,
         OUTCOMES[statistics.outcomes],
         statistics.steps,

@@ -71,6 +71,6 @@ def _title(results: Results, place: int, metrics: set[str]) -> str:
         value if isinstance(value, str) else f"{key} {value}"
         for key, value in chosen.items()
     ]
-    if "arrived" in metrics:
-        said.append("arrived" if results.values("arrived", place)[0] else "failed")
+    if "success" in metrics:
+        said.append("arrived" if results.values("success", place)[0] else "failed")
     return ", ".join(said)

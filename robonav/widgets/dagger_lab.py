@@ -51,7 +51,7 @@ class DaggerLab(KernelTraining):
         settings = request["settings"]
         robots = check_integer("robots", request["robots"], at_least=1)
         rounds = check_integer("rounds", settings["rounds"], at_least=1, at_most=99)
-        maps = check_integer("maps a round", settings["maps"], at_least=1)
+        n_worlds = check_integer("maps a round", settings["maps"], at_least=1)
         first = check_integer("demonstrations", settings["demonstrations"], at_least=1)
         decay = check_real("beta", settings["beta"], at_least=0, at_most=1)
         worlds = random_worlds(TRIED, OBSTACLES, seed=self.data["trial"]["seed"])
@@ -67,7 +67,7 @@ class DaggerLab(KernelTraining):
             results.append(
                 dagger(
                     demonstrations,
-                    [random_worlds(maps, OBSTACLES, seed=seed) for seed in seeds],
+                    [random_worlds(n_worlds, OBSTACLES, seed=seed) for seed in seeds],
                     beta_decay=decay,
                     regularisation=REGULARISATION,
                     seed=robot,
@@ -88,7 +88,7 @@ def dagger_lab(
     policy: NetworkPolicy,
     *,
     expert_seed: int = 9,
-    maps: int = 200,
+    n_worlds: int = 200,
     test_seed: int = 2024,
 ) -> DaggerLab:
     """Make a lab in which the reader corrects a robot that has learned from one demonstration.
@@ -99,7 +99,7 @@ def dagger_lab(
         The book's own, to compare with.
     expert_seed : int
         The seed of the expert's world.
-    maps : int
+    n_worlds : int
         Number of worlds to test in.
     test_seed : int
         Their seed, another than that of the expert's world.
@@ -116,14 +116,14 @@ def dagger_lab(
     Examples
     --------
     >>> from robonav.benchmark.policies import method
-    >>> sorted(dagger_lab(method("dagger"), maps=10).data)
+    >>> sorted(dagger_lab(method("dagger"), n_worlds=10).data)
     ['book', 'expert', 'playground', 'trial']
     """
     lab = imitation_lab(
         policy,
         demonstrations=1,
         expert_seed=expert_seed,
-        maps=maps,
+        n_worlds=n_worlds,
         test_seed=test_seed,
     )
     return DaggerLab(lab.data)

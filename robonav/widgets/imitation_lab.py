@@ -59,7 +59,7 @@ def imitation_lab(
     *,
     demonstrations: int = 100,
     expert_seed: int = 9,
-    maps: int = 200,
+    n_worlds: int = 200,
     test_seed: int = 2024,
     playground: str = "playground.html",
     progress: Progress | None = None,
@@ -76,7 +76,7 @@ def imitation_lab(
         The number of demonstrations of the computer expert.
     expert_seed : int
         The seed of the expert's worlds.
-    maps : int
+    n_worlds : int
         The number of test worlds.
     test_seed : int
         Their seed, another than that of the expert's worlds.
@@ -97,13 +97,13 @@ def imitation_lab(
     Examples
     --------
     >>> from robonav.benchmark.policies import method
-    >>> lab = imitation_lab(method("lfd"), demonstrations=2, maps=10)
+    >>> lab = imitation_lab(method("lfd"), demonstrations=2, n_worlds=10)
     >>> len(lab.data["expert"]["actions"])
     2
     """
     check_instance("policy", policy, NetworkPolicy)
     count = check_integer("demonstrations", demonstrations, at_least=1)
-    tested = check_integer("maps", maps, at_least=1)
+    tested = check_integer("n_worlds", n_worlds, at_least=1)
     if expert_seed == test_seed:
         raise ValueError(
             f"expert_seed and test_seed must differ, got {test_seed} twice"

@@ -186,7 +186,7 @@ def reward_learning(
     world: Worlds,
     policies: Mapping[str, NetworkPolicy],
     *,
-    maps: int = 200,
+    n_worlds: int = 200,
     seed: int,
 ) -> RewardLearning:
     """Make the widget that learns a reward.
@@ -199,7 +199,7 @@ def reward_learning(
         A batch of one: the map on which the reward is drawn.
     policies : mapping of str to NetworkPolicy
         Policies to compare the learned one with. The rule that goes straight on is always among them.
-    maps : int
+    n_worlds : int
         The number of maps in which the robots are tried.
     seed : int
         The seed of these maps.
@@ -211,7 +211,7 @@ def reward_learning(
     Raises
     ------
     ValueError
-        If there is no decision in the demonstrations, or ``maps`` is below 1.
+        If there is no decision in the demonstrations, or ``n_worlds`` is below 1.
 
     Examples
     --------
@@ -242,7 +242,7 @@ def reward_learning(
             "sets": sets,
             "world": page_world(world),
             "policies": [{"name": "straight on", "rule": "straight"}, *networks],
-            "maps": check_integer("maps", maps, at_least=1),
+            "maps": check_integer("n_worlds", n_worlds, at_least=1),
             "seed": check_integer("seed", seed, at_least=0),
         },
         list(demonstrations.values()),

@@ -348,13 +348,13 @@ export function encode({ sensors, walls, target, raw = false }, sensing) {
 }
 
 /** The rule that turns to the side with more room. @param {Sensing} sensing */
-export function freerSide({ ranges }) {
+export function turnToClearerSide({ ranges }) {
   if (ranges[0] >= 6) return 0;
   return Math.min(ranges[1], ranges[2]) > Math.min(ranges[7], ranges[8]) ? 2 : 4;
 }
 
 /** Policies that need no network. */
-export const RULES = { straight: () => 0, "freer-side": freerSide };
+export const RULES = { straight: () => 0, "freer-side": turnToClearerSide };
 
 /** Gumbel noise for each action in a step: the largest of z + T noise is drawn as Boltzmann's distribution has it. */
 export const gumbel = (key, step) => (action) => -Math.log(-Math.log(uniform(key, CHOOSING, step, action, 0)));

@@ -9,7 +9,12 @@ import numpy as np
 from playwright.sync_api import Locator, Page
 
 from robonav.benchmark.policies import method
-from robonav.lfd import ComputerExpert, Demonstrations, demonstrate, record
+from robonav.lfd import (
+    ComputerExpert,
+    Demonstrations,
+    demonstrate,
+    record_demonstrations,
+)
 from robonav.networks import NetworkPolicy
 from robonav.robot import Simulator, Worlds, random_worlds
 from robonav.widgets.robot_playground import robot_playground
@@ -85,7 +90,7 @@ class Wanderer:
 
 def clumsy_demonstration(number: int) -> Demonstrations:
     """How a reader drives through a map who turns round and round."""
-    return record(Wanderer(), own_map(number))
+    return record_demonstrations(Wanderer(), own_map(number))
 
 
 def keys_of(demonstration: Demonstrations) -> list[str]:

@@ -30,7 +30,7 @@ from robonav.lfd import (
     demonstrate,
     labelled_states,
     learn_policy,
-    record,
+    record_demonstrations,
     save_demonstrations,
 )
 from robonav.networks import (
@@ -204,7 +204,7 @@ def test_demonstrations_that_collided_are_left_out(view, site, widget, tmp_path)
     def ahead(simulator: object, asked: np.ndarray) -> np.ndarray:
         return np.zeros(len(asked), dtype=np.int64)
 
-    bad = record(ahead, random_worlds(9, 10, seed=1)[world])
+    bad = record_demonstrations(ahead, random_worlds(9, 10, seed=1)[world])
     save_demonstrations(
         tmp_path / "both.npz", concatenate([bad, good_demonstration(1)])
     )

@@ -43,13 +43,13 @@ def grids() -> Any:
 def imitation() -> Any:
     policy = method("lfd")
     assert isinstance(policy, NetworkPolicy)
-    return imitation_lab(policy, demonstrations=5, maps=20)
+    return imitation_lab(policy, demonstrations=5, n_worlds=20)
 
 
 def rewards() -> Any:
     demonstrations = {"three": demonstrate(random_worlds(3, 20, seed=3))}
     world = random_worlds(1, 20, seed=8)
-    return reward_learning(demonstrations, world, {}, maps=10, seed=55_000)
+    return reward_learning(demonstrations, world, {}, n_worlds=10, seed=55_000)
 
 
 def boundaries() -> Any:
@@ -60,7 +60,7 @@ def boundaries() -> Any:
 
 LABS: dict[str, Callable[[], Any]] = {
     "boundaries": boundaries,
-    "dagger": lambda: dagger_lab(method("dagger"), maps=10),
+    "dagger": lambda: dagger_lab(method("dagger"), n_worlds=10),
     "experts": key_points_lab,
     "grids": grids,
     "imitation": imitation,
@@ -198,7 +198,7 @@ def test_an_expert_that_slips_is_learned_from(view, http):
 
 
 def test_dagger_runs_in_python(view, http):
-    widget = dagger_lab(method("dagger"), maps=10)
+    widget = dagger_lab(method("dagger"), n_worlds=10)
     lab = mounted(view, http, widget, kernel=True)
     set_slider(lab, "rounds", "Home")
     set_slider(lab, "maps in each round", "Home")

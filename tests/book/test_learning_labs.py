@@ -13,7 +13,7 @@ from playwright.sync_api import Locator, expect
 from robonav.experiments import labs, read_results
 
 LABELS = {
-    "lambda": "strength of regularisation λ",
+    "regularisation": "strength of regularisation λ",
     "hidden": "hidden units",
     "discount": "discount γ",
 }

@@ -33,7 +33,7 @@ def lab(request: pytest.FixtureRequest, visit: Visit, site: Path) -> Iterator[Lo
         {"six": DEMONSTRATIONS},
         random_worlds(1, 20, seed=8),
         {"the book's NIRL": method("nirl")},
-        maps=100,
+        n_worlds=100,
         seed=55_000,
     )
     found = mounted(visit, site.as_uri(), widget)

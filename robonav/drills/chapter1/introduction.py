@@ -8,7 +8,7 @@ import numpy as np
 from gymnasium.spaces import MultiDiscrete
 
 from robonav import robot
-from robonav.mdp.discrete_spaces import count
+from robonav.mdp.discrete_spaces import space_size
 from robonav.robot.encoding import DANGER_BORDERS, LFD_SENSORS, NNQL_SENSORS
 
 from ..pictures import label, picture, place
@@ -402,7 +402,7 @@ def situations_to_list(rng: Rng) -> Question:
     sensors = int(rng.choice([3, 4, 6, 8, len(NNQL_SENSORS), len(LFD_SENSORS)]))
     degrees = int(rng.choice([2, 3, 4, 5, len(DANGER_BORDERS) + 1]))
     sectors = int(rng.choice([4, 6, 9, 12]))
-    answer = count("situations", MultiDiscrete([*[degrees] * sensors, sectors]))
+    answer = space_size("situations", MultiDiscrete([*[degrees] * sensors, sectors]))
     listed = sensors * degrees * sectors
     return Question(
         f"A robot has {sensors} sensors, and each reports one of {degrees} degrees of danger. The "

@@ -6,7 +6,7 @@ import numpy as np
 from gymnasium.spaces import MultiDiscrete
 
 from robonav import nnql
-from robonav.mdp.discrete_spaces import count
+from robonav.mdp.discrete_spaces import space_size
 
 from ..question import Number, Question, Table
 from ..registry import drill
@@ -93,7 +93,7 @@ def count_states(rng: Rng) -> Question:
     """Count the states of a discretised robot."""
     sensors, degrees = int(rng.integers(3, 7)), int(rng.integers(2, 8))
     regions = int(rng.choice([3, 4, 5, 6, 8, 9, 12]))
-    answer = count("states", MultiDiscrete([*[degrees] * sensors, regions, 2]))
+    answer = space_size("states", MultiDiscrete([*[degrees] * sensors, regions, 2]))
     return Question(
         f"A robot has ${sensors}$ sensors with ${degrees}$ degrees of danger each, knows which of "
         f"${regions}$ sectors holds "

@@ -139,7 +139,7 @@ def compare_experts(case: Case, seed: int, scale: str) -> Numbers:
     policy = learn_policy(trajectories, seed=seed)
     rates = SETUP.evaluate(policy, SETUP.test_worlds(seed, scale))
     return {
-        "arrived": 100 * held.arrived / held.trajectories,
+        "success of the expert": 100 * held.arrived / held.trajectories,
         "steps an episode": held.steps / held.trajectories,
         "effective pairs an episode": held.effective / held.trajectories,
         "distinct states an episode": held.states / held.trajectories,
@@ -228,7 +228,7 @@ def expert_margin(case: Case, seed: int, scale: str) -> Numbers:
 
 def with_equal_data(case: Case, seed: int, scale: str) -> Numbers:
     """One round of DAgger, and cloning from demonstrations in equally many maps, the control for it."""
-    obstacles, maps = int(case["obstacles"]), int(case["maps"])
+    obstacles, maps = int(case["obstacles"]), int(case["worlds"])
     if case["method"] == "dagger":
         result = dagger_result(seed, obstacles, rounds=1)
         policy, learned_from = result.policy, result.demonstrations[-1]
@@ -443,7 +443,7 @@ EQUAL_DATA = Experiment(
         {
             "obstacles": obstacles,
             "method": name,
-            "maps": maps,
+            "worlds": maps,
             "temperature": temperature,
         }
         for obstacles in (10, 20, 30)

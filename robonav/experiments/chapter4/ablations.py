@@ -142,8 +142,8 @@ def fit_later(case: Case, seed: int, scale: str) -> Numbers:
 
 def in_few_maps(case: Case, seed: int, scale: str) -> Numbers:
     """NNQL trained in a new map in each episode, or again and again in a few maps; tested in new maps."""
-    maps = None if case["maps"] == "new" else int(case["maps"])
-    trained = training("nnql", seed, scale, tuned()["nnql"], maps=maps)
+    n_worlds = None if case["worlds"] == "new" else int(case["worlds"])
+    trained = training("nnql", seed, scale, tuned()["nnql"], n_worlds=n_worlds)
     rates = evaluate(trained.policies[0], SETUP.test_worlds(seed, scale))
     return rates | {
         "success, last 100 episodes": 100 * trained.successes[0, -100:].mean()
@@ -180,7 +180,7 @@ LATE_FITS = Experiment(
 FEW_MAPS = Experiment(
     name="nnql-maps",
     title="Success in new maps of NNQL by the number of maps in which it trains",
-    cases=[{"maps": maps} for maps in ("new", 30, 10, 3, 1)],
+    cases=[{"worlds": worlds} for worlds in ("new", 30, 10, 3, 1)],
     run=in_few_maps,
     seeds={"quick": 1, "thesis": 24},
     settings={**ABOUT, "settings": dict(tuned()["nnql"])},

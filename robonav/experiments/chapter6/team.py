@@ -101,7 +101,7 @@ def learned_policy(robots: int, seed: int, scale: str) -> Policy:
     return train_team(
         robots,
         LEARNING["updates"][scale],
-        maps=LEARNING["learners"] // robots,
+        n_worlds=LEARNING["learners"] // robots,
         obstacles=TEAM["obstacles"],
         speed=TEAM["speed"],
         max_steps=TEAM["max_steps"],

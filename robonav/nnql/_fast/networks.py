@@ -23,7 +23,10 @@ class BatchedNetworks:
     """
 
     def __init__(self, network: NetworkStack) -> None:
-        self._parameters, self._outputs = packed(network), network.sizes[-1]
+        self._parameters, self._outputs = (
+            parameters_to_vectors(network),
+            network.sizes[-1],
+        )
 
     def logits(self, rows: Rows, x: Array) -> Array:
         """Logits (K, m, A) of the networks ``rows`` (K,), each for m inputs of its own: ``x`` (K, m, n)."""
@@ -79,7 +82,7 @@ class BatchedNetworks:
         self._parameters[rows] -= update
 
     def parameters(self) -> Array:
-        """A copy of all parameters (S, P), in the order of :func:`packed`."""
+        """A copy of all parameters (S, P), in the order of :func:`parameters_to_vectors`."""
         return self._parameters.copy()
 
     def load(self, rows: Rows, parameters: Array) -> None:
@@ -87,7 +90,7 @@ class BatchedNetworks:
         self._parameters[rows] = parameters
 
 
-def packed(network: NetworkStack) -> Array:
+def parameters_to_vectors(network: NetworkStack) -> Array:
     """A stack (S,) of networks as rows (S, P): w1 (n, H), b1 (H,), w2 (H, A), b2 (A,), one after the other.
 
     The weights are transposed, with the unit they come from first, so that inner loops run along memory.
@@ -97,8 +100,8 @@ def packed(network: NetworkStack) -> Array:
     return np.concatenate([part.reshape(len(part), -1) for part in parts], axis=1)
 
 
-def unpacked(parameters: Array, sizes: tuple[int, ...]) -> NetworkStack:
-    """The inverse of :func:`packed`: a stack (...) of networks with ``sizes`` n, H, A from rows (..., P)."""
+def vectors_to_parameters(parameters: Array, sizes: tuple[int, ...]) -> NetworkStack:
+    """The inverse of :func:`parameters_to_vectors`: networks (...) with ``sizes`` n, H, A from rows (..., P)."""
     n, h, a = sizes
     stack = parameters.shape[:-1]
     w1, b1, w2, b2 = np.split(parameters, np.cumsum([n * h, h, h * a]), axis=-1)

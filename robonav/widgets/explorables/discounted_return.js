@@ -1,6 +1,6 @@
 // Return against discount: two chargers, one near and small, one far and large.
 
-/** The return of an episode from its first step on, Eq. (2.3): the sum of gamma^t R_{t+1}. */
+/** The return of an episode from its first step on, Eq. (2.3): the sum of discount^t R_{t+1}. */
 export const returnOf = (rewards, discount) => rewards.reduceRight((future, reward) => reward + discount * future, 0);
 
 /** The same two ways with the far reward at another step. */

@@ -3,7 +3,7 @@
 /** The mean error of the largest of some estimates: their errors' scatter times the mean of the largest of n standard normal numbers. */
 export const largestError = (means, actions, error) => error * means[actions - 1];
 
-/** By how much the values rise in the end if each target adds an error: the sum of gamma^t errors. */
+/** By how much the values rise in the end if each target adds an error: the sum of discount^t errors. */
 export const riseOfValues = (bias, discount) => bias / (1 - discount);
 
 export default explorable({

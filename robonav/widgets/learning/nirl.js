@@ -27,7 +27,7 @@ export const decisionsOf = (steps, { encoder }) => ({
 const TIE = 1e-12; // how far apart rounding brings two balanced accuracies that are equal; the first of them is kept
 
 /** Boltzmann policy, Eq. (5.10). @param {ArrayLike<number>} values */
-export const boltzmann = (values, inverseTemperature) => softmax(values.map((value) => inverseTemperature * value));
+export const boltzmannPolicy = (values, inverseTemperature) => softmax(values.map((value) => inverseTemperature * value));
 
 const PIECE = 1000; // steps of the descent, or draws, after which the page may answer
 
@@ -49,7 +49,7 @@ function* rolloutEpisodes(network, settings, rng) {
     const draws = rng.uniform(0, 1, asked.length);
     asked.forEach((robot, i) => {
       const input = Float64Array.from(encode(encoder, robot.sensing));
-      robot.action = sampleAction(boltzmann(outputsOf(network, input), inverseTemperature), draws[i]);
+      robot.action = sampleAction(boltzmannPolicy(outputsOf(network, input), inverseTemperature), draws[i]);
       robot.decisions.push({ input, action: robot.action });
     });
     running.forEach((robot) => {
@@ -218,7 +218,7 @@ export function* nirl(expert, settings, seed, reward = null) {
   for (let iteration = 1; iteration <= iterations; iteration += 1) { // 2, 3, 11
     const rollout = yield* rolloutEpisodes(network, settings, rng); // 4
     episodes.push(rollout);
-    const probabilities = answers.values.map((values) => boltzmann(values, inverseTemperature));
+    const probabilities = answers.values.map((values) => boltzmannPolicy(values, inverseTemperature));
     const gap = featureGap(expert, probabilities, balance, actions);
     theta = reward ?? theta.map((value, k) => value + gap[k] / Math.sqrt(iteration)); // 5
     const weights = inUnitBall(theta);

@@ -55,7 +55,7 @@ def test_where_the_reflex_acted_the_policy_did_not_decide(acted):
 
 
 def test_a_seed_gives_a_training():
-    one, again, other = (train_team(2, 2, maps=2, seed=seed) for seed in (4, 4, 5))
+    one, again, other = (train_team(2, 2, n_worlds=2, seed=seed) for seed in (4, 4, 5))
     for name in ("policy", "value"):
         ours, same = getattr(one.networks, name), getattr(again.networks, name)
         for weights, equal in zip(ours.weights, same.weights, strict=True):
@@ -66,7 +66,7 @@ def test_a_seed_gives_a_training():
 
 @pytest.mark.slow
 def test_a_team_learns():
-    learned = train_team(4, 14, maps=8, obstacles=4, seed=0)
+    learned = train_team(4, 14, n_worlds=8, obstacles=4, seed=0)
     assert learned.arrived[:2].mean() < 0.4
     assert learned.arrived[-3:].mean() > 0.7
     assert len(learned.steps) == 14
@@ -77,7 +77,7 @@ def test_a_team_learns():
     ("settings", "message"),
     [
         ({"robots": 0}, "robots must be at least 1"),
-        ({"maps": 0}, "maps must be at least 1"),
+        ({"n_worlds": 0}, "n_worlds must be at least 1"),
         ({"clip": 2}, "clip must be"),
         ({"speed": 0}, "speed must be greater than 0"),
     ],

@@ -82,9 +82,9 @@ def test_dagger_is_ahead_with_equally_much_data():
         few, many, warm, dagger = (
             values(tables.EQUAL_DATA, "success", obstacles=obstacles, **setting)
             for setting in (
-                {"method": "lfd", "maps": 25},
-                {"method": "lfd", "maps": 50, "temperature": 0.0},
-                {"method": "lfd", "maps": 50, "temperature": 0.4},
+                {"method": "lfd", "worlds": 25},
+                {"method": "lfd", "worlds": 50, "temperature": 0.0},
+                {"method": "lfd", "worlds": 50, "temperature": 0.4},
                 {"method": "dagger"},
             )
         )

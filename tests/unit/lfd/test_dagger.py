@@ -12,7 +12,7 @@ from robonav.lfd import (
     demonstrate,
     learn_neighbours,
     learn_policy,
-    record,
+    record_demonstrations,
 )
 from robonav.lfd.dagger import round_seeds
 from robonav.networks import NetworkPolicy
@@ -311,6 +311,6 @@ def test_wrong_arguments_of_dagger_get_a_sentence(demonstrations, options, messa
 def test_what_cannot_be_called_is_refused():
     worlds = random_worlds(1, 5, seed=1)
     with pytest.raises(TypeError, match="expert must be callable"):
-        record(3, worlds)
+        record_demonstrations(3, worlds)
     with pytest.raises(TypeError, match="policy must be callable"):
         collect_with_expert_labels(3, worlds)

@@ -8,7 +8,7 @@ from robonav.lfd import (
     Demonstrations,
     demonstrate,
     demonstrate_by_hand,
-    record,
+    record_demonstrations,
     sketch,
 )
 from robonav.lfd.dagger import labelled_rollout
@@ -99,13 +99,13 @@ def test_a_plan_is_made_where_the_last_was_left():
 
     worlds = random_worlds(4, 10, seed=5)
     steady, slipping = Counting(), Counting()
-    asked = (record(steady, worlds).actions < 5).sum()
-    demonstrations = record(slipping, worlds, slip=neighbour_slip(0.4))
+    asked = (record_demonstrations(steady, worlds).actions < 5).sum()
+    demonstrations = record_demonstrations(slipping, worlds, slip=neighbour_slip(0.4))
     assert steady.plans < asked / 2
     assert slipping.plans > 1.5 * steady.plans
     assert np.array_equal(
         demonstrations.actions,
-        record(Counting(), worlds, slip=neighbour_slip(0.4)).actions,
+        record_demonstrations(Counting(), worlds, slip=neighbour_slip(0.4)).actions,
     )
 
 
@@ -130,8 +130,8 @@ def test_a_slipping_expert_shows_what_was_executed():
 
 def test_intended_actions_are_recorded_on_request():
     worlds, slip = random_worlds(6, 20, seed=2), neighbour_slip(0.3)
-    executed = record(ComputerExpert(), worlds, slip=slip)
-    intended = record(ComputerExpert(), worlds, slip=slip, intended=True)
+    executed = record_demonstrations(ComputerExpert(), worlds, slip=slip)
+    intended = record_demonstrations(ComputerExpert(), worlds, slip=slip, intended=True)
     assert np.array_equal(executed.poses, intended.poses)
     chosen = REFLEX(executed.sensing, executed.speed) < 0
     slipped = executed.actions != intended.actions
@@ -152,7 +152,7 @@ def test_moving_obstacles_are_planned_around():
     """The expert plans again in each step, because the obstacles of its last plan have moved."""
 
     expert = Counting()
-    demonstrations = record(expert, random_worlds(6, 5, 5, seed=6))
+    demonstrations = record_demonstrations(expert, random_worlds(6, 5, 5, seed=6))
     assert (demonstrations.outcome == "arrived").mean() > 0.6
     assert (
         expert.plans == (REFLEX(demonstrations.sensing, demonstrations.speed) < 0).sum()
@@ -161,7 +161,9 @@ def test_moving_obstacles_are_planned_around():
 
 def test_steps_in_safe_states_are_not_learned_from():
     """Not even where, without a reflex, one of the five actions was taken."""
-    demonstrations = record(ComputerExpert(), random_worlds(3, 10, seed=7), reflex=None)
+    demonstrations = record_demonstrations(
+        ComputerExpert(), random_worlds(3, 10, seed=7), reflex=None
+    )
     assert (demonstrations.actions < 5).all()
     assert demonstrations.sensing.safe.sum() > 30
     assert not demonstrations.effective.sensing.safe.any()
@@ -169,7 +171,7 @@ def test_steps_in_safe_states_are_not_learned_from():
 
 
 def test_out_of_steps():
-    demonstrations = record(
+    demonstrations = record_demonstrations(
         lambda simulator, asked: np.full(len(asked), Action.R60),
         random_worlds(2, 0, seed=1),
         reflex=None,
@@ -275,7 +277,7 @@ def test_wrong_arguments_get_a_sentence(worlds, options, error, message):
 def test_demonstrations_of_a_slow_robot():
     """Its steps are shorter than the cells that tell poses apart."""
     worlds = random_worlds(2, 6, seed=1, size=40, starts=((5, 5),), targets=((35, 35),))
-    slow = record(ComputerExpert(), worlds, speed=0.1, max_steps=2000)
+    slow = record_demonstrations(ComputerExpert(), worlds, speed=0.1, max_steps=2000)
     assert slow.outcome.tolist() == ["arrived", "arrived"]
     assert (
         demonstrate(random_worlds(1, 5, seed=1), speed=0.1).outcome[0] == "out of steps"

@@ -13,7 +13,7 @@ from robonav.lfd import (
     PathFollower,
     demonstrate_by_hand,
     path_clearance,
-    record,
+    record_demonstrations,
     sketch,
     smooth_path,
 )
@@ -70,7 +70,7 @@ def test_clearance_of_a_path():
 def test_a_robot_stays_on_its_path():
     worlds = random_worlds(1, 0, seed=1)
     path = smooth_path([(10, 10), (30, 60), (60, 40), (90, 90)])
-    demonstrations = record(PathFollower([path]), worlds, reflex=None)
+    demonstrations = record_demonstrations(PathFollower([path]), worlds, reflex=None)
     assert demonstrations.outcome[0] == "arrived"
     line = LineString(path)
     assert max(line.distance(Point(p)) for p in demonstrations.poses[:, :2]) < 2.0

@@ -5,7 +5,13 @@ import minari
 import numpy as np
 import pytest
 
-from robonav.lfd import concatenate, demonstrate, from_minari, record, to_minari
+from robonav.lfd import (
+    concatenate,
+    demonstrate,
+    from_minari,
+    record_demonstrations,
+    to_minari,
+)
 from robonav.robot import Action, random_worlds, turn_to_clearer_side
 from robonav.robot.environments import as_sensing
 
@@ -55,7 +61,11 @@ def test_there_and_back():
 
 def test_episodes_of_other_endings():
     worlds = random_worlds(8, obstacles=10, seed=4)
-    straight = record(lambda simulator, robots: np.zeros(len(robots), int), worlds, max_steps=40)  # fmt: skip
+
+    def ahead(simulator, robots):
+        return np.zeros(len(robots), int)
+
+    straight = record_demonstrations(ahead, worlds, max_steps=40)
     assert {"collided", "out of steps"} <= set(straight.outcome)
     assert_same(from_minari(to_minari(straight, "robonav/straight-v0")), straight)
 
@@ -78,7 +88,7 @@ def test_what_minaris_collector_records():
     read = from_minari(dataset)
     np.testing.assert_allclose(read.poses, seen)
     assert read.speed == 2.5
-    again = record(
+    again = record_demonstrations(
         lambda simulator, robots: turn_to_clearer_side(simulator.sense()[robots], None),
         read.worlds,
         speed=2.5,

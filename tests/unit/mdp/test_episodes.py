@@ -18,7 +18,7 @@ from robonav.mdp import (
     sarsa,
     td_prediction,
 )
-from robonav.mdp.discrete_spaces import count, discretise_spaces, element, number
+from robonav.mdp.discrete_spaces import discretise_spaces, element, number, space_size
 from robonav.mdp.episodes import policy_sampler
 
 REWARDS = st.lists(st.floats(-10, 10), min_size=1, max_size=30)
@@ -66,7 +66,7 @@ def test_discounted_return_of_nothing_is_nothing():
 )
 def test_every_element_of_a_space_gets_its_own_number(space):
     space.seed(0)
-    size = count("space", space)
+    size = space_size("space", space)
     seen = {}
     for _ in range(60 * size):
         drawn = space.sample()

@@ -21,7 +21,11 @@ from robonav.nnql._fast.agents import (
     adam,
     rprop,
 )
-from robonav.nnql._fast.networks import BatchedNetworks, packed, unpacked
+from robonav.nnql._fast.networks import (
+    BatchedNetworks,
+    parameters_to_vectors,
+    vectors_to_parameters,
+)
 from robonav.nnql._fast.replay_buffers import ReplayBuffers
 
 GAMMA = 0.7
@@ -245,7 +249,10 @@ def test_accumulated_training_is_a_plain_loop(pairs):
                     ),
                 )
     np.testing.assert_allclose(
-        agent.networks.parameters(), packed(stacked([network])), rtol=1e-8, atol=1e-10
+        agent.networks.parameters(),
+        parameters_to_vectors(stacked([network])),
+        rtol=1e-8,
+        atol=1e-10,
     )
 
 
@@ -273,7 +280,10 @@ def test_a_learner_that_does_not_learn():
     before = agent.networks.parameters()
     for rows, steps in corridor_steps(agent, 3):
         z = np.stack(
-            [unpacked(before, (4, 8, 2))[k].logits(steps.inputs[k]) for k in range(2)]
+            [
+                vectors_to_parameters(before, (4, 8, 2))[k].logits(steps.inputs[k])
+                for k in range(2)
+            ]
         )
         np.testing.assert_allclose(steps.values, expit(z))
         agent.observe(rows, steps)
@@ -367,7 +377,8 @@ def test_dqn_learns_from_its_estimate(targets, estimate):
     )
     x, reached = np.eye(4)[[0]], np.eye(4)[[1]]
     own, target = (
-        unpacked(n.parameters(), (4, 8, 2))[0] for n in (agent.networks, agent.target)
+        vectors_to_parameters(n.parameters(), (4, 8, 2))[0]
+        for n in (agent.networks, agent.target)
     )
     after = own.logits(reached[0]), target.logits(reached[0])
     assert after[0].argmax() != after[1].argmax()

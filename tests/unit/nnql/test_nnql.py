@@ -282,7 +282,7 @@ def test_task_of_another_type(task):
 
 
 def test_episodes_go_through_a_task_s_maps_again_and_again():
-    new, three = NavigationTask(), NavigationTask(maps=3)
+    new, three = NavigationTask(), NavigationTask(n_worlds=3)
     first = new.worlds([4, 5], 0, 8)
     again = three.worlds([4, 5], 0, 8)
     for seed in (0, 8):  # the episodes of the second seed follow those of the first
@@ -293,5 +293,5 @@ def test_episodes_go_through_a_task_s_maps_again_and_again():
     np.testing.assert_array_equal(
         three.worlds([4], 4, 6).centres, first[[1, 2]].centres
     )
-    with pytest.raises(ValueError, match="maps must be at least 1, got 0"):
-        NavigationTask(maps=0)
+    with pytest.raises(ValueError, match="n_worlds must be at least 1, got 0"):
+        NavigationTask(n_worlds=0)

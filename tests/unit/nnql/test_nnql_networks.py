@@ -10,7 +10,11 @@ from robonav.networks.multilayer_perceptron import (
 )
 from robonav.networks.network_stack import stacked
 from robonav.nnql import cross_entropy
-from robonav.nnql._fast.networks import BatchedNetworks, packed, unpacked
+from robonav.nnql._fast.networks import (
+    BatchedNetworks,
+    parameters_to_vectors,
+    vectors_to_parameters,
+)
 
 SIZES = (24, 8, 5)
 
@@ -93,7 +97,10 @@ def test_descent_is_a_plain_loop_over_the_pairs(passes, tolerance):
         )
         took.append(done)
     np.testing.assert_allclose(
-        networks.parameters(), packed(stacked(expected)), rtol=1e-9, atol=1e-12
+        networks.parameters(),
+        parameters_to_vectors(stacked(expected)),
+        rtol=1e-9,
+        atol=1e-12,
     )
     if tolerance:
         assert len(set(took)) > 1  # they settled, each in its own time
@@ -157,16 +164,16 @@ def test_parameters_are_copied_in_and_out():
     network = stack()
     networks, rows = BatchedNetworks(network), np.array([2, 0])
     networks.parameters()[:] = 0
-    np.testing.assert_array_equal(networks.parameters(), packed(network))
-    networks.apply_update(rows, packed(network)[rows])
+    np.testing.assert_array_equal(networks.parameters(), parameters_to_vectors(network))
+    networks.apply_update(rows, parameters_to_vectors(network)[rows])
     np.testing.assert_array_equal(networks.parameters()[rows], 0)
-    networks.load(rows, packed(network)[rows])
-    np.testing.assert_array_equal(networks.parameters(), packed(network))
+    networks.load(rows, parameters_to_vectors(network)[rows])
+    np.testing.assert_array_equal(networks.parameters(), parameters_to_vectors(network))
 
 
 def test_there_and_back():
     network = stack()
-    again = unpacked(packed(network), SIZES)
+    again = vectors_to_parameters(parameters_to_vectors(network), SIZES)
     for ours, theirs in zip(
         (*again.weights, *again.biases),
         (*network.weights, *network.biases),
@@ -174,5 +181,6 @@ def test_there_and_back():
     ):
         np.testing.assert_array_equal(ours, theirs)
     np.testing.assert_array_equal(
-        unpacked(packed(network)[2], SIZES).weights[1], network.weights[1][2]
+        vectors_to_parameters(parameters_to_vectors(network)[2], SIZES).weights[1],
+        network.weights[1][2],
     )

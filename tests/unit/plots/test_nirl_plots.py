@@ -75,7 +75,7 @@ def test_key_points_and_what_was_driven(axes):
 
 
 def test_slips_are_ringed(axes):
-    demonstrations = lfd.record(
+    demonstrations = lfd.record_demonstrations(
         lfd.ComputerExpert(), random_worlds(1, 20, seed=4), slip=neighbour_slip(0.3)
     )
     meant = demonstrations.actions.copy()

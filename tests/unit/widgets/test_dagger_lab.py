@@ -144,5 +144,5 @@ def test_the_robot_learns_from_corrections_as_in_python(node):
 
 
 def test_a_wrong_argument_gets_one_sentence():
-    with pytest.raises(ValueError, match="maps must be at least 1"):
-        dagger_lab(method("dagger"), maps=0)
+    with pytest.raises(ValueError, match="n_worlds must be at least 1"):
+        dagger_lab(method("dagger"), n_worlds=0)

@@ -158,7 +158,7 @@ def test_experts_are_compared_by_the_robots_that_learn_from_them(told):
 @pytest.mark.slow
 def test_dagger_is_tried_round_after_round(told):
     messages, report = told
-    lab = dagger_lab.dagger_lab(method("dagger"), maps=10)
+    lab = dagger_lab.dagger_lab(method("dagger"), n_worlds=10)
     settings = {"demonstrations": 1, "rounds": 2, "maps": 2, "beta": 0.0}
     sentence = lab.train({"robots": 1, "settings": settings}, report)
     (result,) = lab.trainings
@@ -174,7 +174,7 @@ def test_dagger_is_tried_round_after_round(told):
 def test_a_cancelled_training_of_dagger_ends_at_its_next_round():
     cancelled = threading.Event()
     cancelled.set()
-    lab = dagger_lab.dagger_lab(method("dagger"), maps=10)
+    lab = dagger_lab.dagger_lab(method("dagger"), n_worlds=10)
     settings = {"demonstrations": 1, "rounds": 1, "maps": 1, "beta": 0.0}
     with pytest.raises(Cancelled):
         lab.train({"robots": 1, "settings": settings}, Report(print, cancelled))

@@ -54,7 +54,7 @@ def test_a_demonstration_saved_by_the_page_is_a_demonstration(
     world = random_worlds(1, obstacles, moving, seed=4)
     body = """
       const episode = page.makeEpisode(data, 2.5);
-      while (episode.outcome === "running" && episode.step < 300) episode.go(page.freerSide(episode.sensing));
+      while (episode.outcome === "running" && episode.step < 300) episode.go(page.turnToClearerSide(episode.sensing));
     """
     (tmp_path / "episode.npz").write_bytes(
         base64.b64decode(page(body + FILE, page_world(world)))
