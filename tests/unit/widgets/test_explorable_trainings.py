@@ -204,7 +204,7 @@ def test_a_reward_is_learned_with_ends_of_a_chosen_value(ends):
 
 def test_a_rule_drives_as_navigate_does():
     page = Page("reflex_map")
-    given = page.train(rule="straight on", n_worlds=60, speed=3)["given"]
+    given = page.train(rule="straight on", maps=60, speed=3)["given"]
     (result,) = page.lab.trainings
     worlds = random_worlds(60, 10, 0, seed=robot_trainings.SEED)
     alone = navigate(straight, worlds, 3, record_paths=True)
@@ -310,9 +310,7 @@ def test_the_mean_return_is_the_value():
 
 def test_paths_through_many_maps_are_the_planner_s():
     page = Page("astar_by_hand")
-    ended = page.train(
-        search="A* on a grid", margin=4.0, obstacles=40, seed=1, n_worlds=40
-    )
+    ended = page.train(search="A* on a grid", margin=4.0, obstacles=40, seed=1, maps=40)
     plans = page.lab.trainings
     start, target = robot_trainings.START, robot_trainings.TARGET
     worlds = random_worlds(
