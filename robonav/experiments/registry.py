@@ -25,6 +25,7 @@ MODULES = (
     "chapter6.curriculum",
     "chapter6.memory",
     "chapter6.sensing",
+    "chapter6.senses_and_memory",
     "chapter6.gail",
     "chapter6.team",
     "chapter6.body",
