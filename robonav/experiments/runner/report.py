@@ -74,7 +74,10 @@ def as_table(
 
     cells = pd.DataFrame(
         {
-            rows: [str(case[rows]) for case in results.experiment.cases],
+            rows: [
+                display_name(str(case[rows])) if rows == "method" else str(case[rows])
+                for case in results.experiment.cases
+            ],
             columns: [str(case[columns]) for case in results.experiment.cases],
             "cell": _cells(results, metric),
         }
