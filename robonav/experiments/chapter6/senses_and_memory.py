@@ -87,7 +87,7 @@ EXPERIMENTS = (
             },
         },
         shortened="A quick run trains in two rounds of four worlds.",
-        note="A picture has no ranges, so that their error does not reach it.",
+        note="A picture has no ranges, so that their error disturbs its robot through the reflex alone.",
         plot=Plot("experiments.draw_board", metric="success"),
     ),
 )

@@ -22,6 +22,8 @@ from robonav.experiments.chapter6 import (
     gail,
     planners,
     ppo,
+    senses_and_memory,
+    sensing,
     team,
     tuning,
 )
@@ -413,6 +415,47 @@ def sensed(metric, number, network, sensor="sectors"):
     results = published("sensing")
     case = {"sensor": sensor, "number": number, "network": network}
     return results.summary(metric, list(results.experiment.cases).index(case))
+
+
+def test_what_the_leaderboard_says_about_senses_and_memories():
+    """No sensor and no memory is ahead of its control by more than the intervals of both."""
+    results = published("senses-and-memory")
+    places = list(results.experiment.cases)
+
+    def success(method, setting):
+        place = places.index({"method": method, "setting": setting})
+        return results.summary("success", place)
+
+    assert {case["method"] for case in places} == {
+        *senses_and_memory.SENSORS,
+        *senses_and_memory.MEMORIES,
+    }
+    for setting in senses_and_memory.BOARD:
+        for control, others in (
+            ("sectors-9", ("sectors-36", "picture")),
+            ("window-1", ("window-8", "gru")),
+        ):
+            for other in others:
+                least = success(other, setting).low
+                assert least <= success(control, setting).high
+
+
+def test_a_memory_learns_in_the_worlds_of_the_page_on_sensing(monkeypatch):
+    seen = {}
+
+    def trained(policy, rounds, **settings):
+        seen.update(policy=policy, rounds=rounds, **settings)
+        return policy
+
+    monkeypatch.setattr(senses_and_memory, "dagger_with_memory", trained)
+    senses_and_memory.trained.__wrapped__("window-8", 3, "quick")
+    assert seen["policy"].network.k == 8
+    first = sensing.TRAINING["seed"] + 300
+    number = sensing.TRAINING["worlds"]["quick"]
+    for k, worlds in enumerate(seen["rounds"]):
+        expected = sensing.SETUP.worlds(number, first + k)
+        assert worlds.digest() == expected.digest()
+    assert seen["reflex"] == sensing.SETUP.reflex
 
 
 RINGS = [(n, "fully connected") for n in (9, 18, 36, 72)] + [
