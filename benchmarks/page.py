@@ -84,6 +84,18 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         "in a second, learning included. The last training is that of the page on deep "
         "reinforcement learning.",
     ),
+    "Generative adversarial imitation learning": (
+        "gail.py",
+        ("--cpu",),
+        True,
+        "GAIL on CartPole, compared with the library imitation: both learn from the same "
+        "ten episodes of a rule, with networks of one size and equal numbers of steps. A score is "
+        "the mean number of steps in 20 new episodes, at most 500. Three seeds are few, and their ranges overlap. "
+        "The control earns 1 in each step, so that nothing of the expert reaches it, and it "
+        "stays up longest: the reward of both programs is positive in each step, and in CartPole it is "
+        "enough to last. So this task tells whether two programs do the same, and not what a discriminator teaches. "
+        "Seconds are those of the processor.",
+    ),
     "Inverse reinforcement learning": (
         "nirl.py",
         (),

@@ -13,6 +13,13 @@ def printed_by_peer(
     folder: Path, environment: str, script: str, *options: str
 ) -> float:
     """Run a script of ``peers`` in one of the virtual environments of a folder; its last line is a number."""
+    return float(lines_of_peer(folder, environment, script, *options)[-1])
+
+
+def lines_of_peer(
+    folder: Path, environment: str, script: str, *options: str
+) -> list[str]:
+    """Run a script of ``peers`` in one of the virtual environments of a folder, and return what it printed."""
     command = [
         str(folder / environment / "bin" / "python"),
         str(SCRIPTS / script),
@@ -22,4 +29,4 @@ def printed_by_peer(
     shown = subprocess.run(
         command, capture_output=True, text=True, check=True, env=quiet
     )
-    return float(shown.stdout.strip().splitlines()[-1])
+    return shown.stdout.strip().splitlines()

@@ -10,6 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import gymnasium
 import pytest
 
 FOLDER = Path(__file__).parents[2] / "benchmarks"
@@ -84,6 +85,32 @@ def test_help_is_given_without_a_benchmark():
         check=True,
     )
     assert "--peers" in asked.stdout
+
+
+def test_the_page_has_the_committed_scores_of_gail():
+    """The control lasts longest, and the ranges of the seeds of both programs overlap."""
+    found = json.loads((FOLDER / "gail.json").read_text("utf-8"))
+    text = (FOLDER.parent / "book/benchmarks.md").read_text("utf-8")
+    *_, about = page()["SCRIPTS"]["Generative adversarial imitation learning"]
+    assert f"\n{about} `benchmarks/gail.py`:" in text
+    for name in ("ours", "ours, control", "imitation"):
+        scores = found[name]["scores"]
+        each = ", ".join(f"{score:.0f}" for score in scores)
+        shown = f"{name:22} {sum(scores) / len(scores):5.0f} (seeds: {each})"
+        assert shown in text
+    ours, control, theirs = (
+        found[name]["scores"] for name in ("ours", "ours, control", "imitation")
+    )
+    assert min(control) > max(ours)
+    assert sum(control) > sum(theirs)
+    assert min(theirs) < max(ours)
+
+
+def test_the_expert_of_gail_keeps_the_pole_up(monkeypatch):
+    monkeypatch.syspath_prepend(FOLDER)
+    gail = runpy.run_path(str(FOLDER / "gail.py"))
+    env = gymnasium.make(gail["TASK"])
+    assert len(gail["episode"](env, gail["expert"], 0)) == 500
 
 
 def test_the_instructors_page_says_how_long_a_variant_takes():
