@@ -118,3 +118,22 @@ def sections_of(docstring: str) -> tuple[str, dict[str, str]]:
     text, *rest = re.split(rf"^({titles})\n-+\n", docstring, flags=re.MULTILINE)
     bodies = [body.strip("\n") for body in rest[1::2]]
     return text.strip(), dict(zip(rest[::2], bodies, strict=True))
+
+
+def with_signature(
+    function: Callable[P, R], signature: inspect.Signature
+) -> Callable[P, R]:
+    """Let a function show another signature than that of its code, in ``help()`` and in editors.
+
+    A decorator that adds or fills in arguments takes them as ``*args`` and ``**kwargs``, which tells a reader nothing.
+
+    Examples
+    --------
+    >>> import inspect
+    >>> def area(*args): return args[0] * args[1]
+    >>> def shape(width, height): ...
+    >>> print(inspect.signature(with_signature(area, inspect.signature(shape))))
+    (width, height)
+    """
+    function.__signature__ = signature  # type: ignore[attr-defined]
+    return function

@@ -10,7 +10,8 @@ deadline, because a slow or busy machine would miss it.
 from __future__ import annotations
 
 import gc
-from collections.abc import Generator
+from collections.abc import Callable, Generator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -106,6 +107,15 @@ def pytest_collection() -> Generator[None, object, object]:
     finally:
         gc.freeze()
         gc.enable()
+
+
+@pytest.fixture
+def page_text() -> Callable[[str], str]:
+    """The source of a page of the book by its name. Without the book the test is skipped."""
+    book = Path(__file__).parents[1] / "book"
+    if not book.is_dir():
+        pytest.skip("the book is not here")
+    return lambda page: (book / f"{page}.md").read_text("utf-8")
 
 
 @pytest.hookimpl(trylast=True)

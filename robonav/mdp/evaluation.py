@@ -12,6 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
+from robonav.documentation import with_signature
 from robonav.validation import ArrayArgument
 
 from . import undiscounted
@@ -156,8 +157,7 @@ def keeps_history(
         history = swept_values(mdp, policy, start, result.iterations)
         return replace(result, history=history)
 
-    run.__signature__ = with_record(signature)  # type: ignore[attr-defined]
-    return run
+    return with_signature(run, with_record(signature))
 
 
 def swept_values(

@@ -22,7 +22,7 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robonav.documentation import documents
+from robonav.documentation import documents, with_signature
 from robonav.progress import Progress
 
 from ._arguments import checked
@@ -306,9 +306,8 @@ def public(
                 shared[name].replace(default=None) if name in shared else p
             )
     signature = inspect.Signature(list(parameters.values()), return_annotation=returns)
-    train.__signature__ = signature  # type: ignore[attr-defined]
-    learner: Any = wraps(algorithm)(checked(train))
-    learner.__signature__ = signature
+    checked_train = checked(with_signature(train, signature))
+    learner = with_signature(wraps(algorithm)(checked_train), signature)
     said = {name: DOCUMENTATION[(other or {}).get(name, name)] for name in parameters}
     return documents(said, returns=returns, raises=RAISES)(learner)
 

@@ -30,6 +30,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from robonav.documentation import with_signature
+
 from ._arguments import checked
 from .convergence import warn_not_converged
 from .evaluation import with_record
@@ -78,8 +80,7 @@ def planner(
                 warn_not_converged(name, solution.iterations, solution.residual, wanted)
             return with_policies(mdp, solution, tolerance)
 
-        plan.__signature__ = signature  # type: ignore[attr-defined]
-        return checked(plan)
+        return checked(with_signature(plan, signature))
 
     return decorate
 

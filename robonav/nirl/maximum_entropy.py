@@ -42,6 +42,7 @@ from scipy.optimize import OptimizeResult, minimize
 from scipy.special import logsumexp, softmax
 
 from robonav.counting import counted
+from robonav.documentation import with_signature
 from robonav.errors import ConvergenceWarning
 from robonav.mdp.convergence import warns_not_converged
 from robonav.mdp.evaluation import evaluation_residual
@@ -298,10 +299,8 @@ def with_trace(
             converged=largest <= tolerance,
         )
 
-    learn.__signature__ = signature.replace(  # type: ignore[attr-defined]
-        return_annotation="MaximumCausalEntropy"
-    )
-    return checked(learn)
+    shown = signature.replace(return_annotation="MaximumCausalEntropy")
+    return checked(with_signature(learn, shown))
 
 
 def warn_unconverged(found: OptimizeResult, largest: float, tolerance: float) -> None:

@@ -122,8 +122,8 @@ def apprenticeship(
     expectations : callable
         :func:`from_all_states`, or :func:`from_initial_state`, which takes the equation literally.
     n_rewards : int
-        Rewards to guess at most. The ``iterations`` are divided equally among them, and the network keeps its weights
-        from one reward to the next.
+        Rewards to guess at most. The ``iterations`` are divided among them: if ``n_rewards`` does not divide their
+        number, the last rewards get one iteration more. The network keeps its weights from one reward to the next.
     improver : ReplaySGD
         Improves the network; its discount is that of the feature expectations.
 
@@ -137,20 +137,19 @@ def apprenticeship(
     4
     """
     n_actions, discount = task.n_actions, improver.discount
-    per_reward = max(iterations // n_rewards, 1)
-    total = n_rewards * per_reward
+    n_guesses = min(n_rewards, iterations)
     mu_expert = expectations(demonstrations, n_actions, discount)
     episodes = [task.rollout(exploring_policy(network, inverse_temperature), rng)]
     found = [expectations(episodes[0], n_actions, discount)]  # 1
-    for _ in range(n_rewards):
+    for number in range(n_guesses):
         weights, distance = guess(mu_expert, found)  # 2
         if distance <= 0:  # 3
             break
         theta = project_to_unit_ball(weights.reshape(n_actions, -1))
-        for _ in range(per_reward):  # 4
+        for _ in range((iterations + number) // n_guesses):  # 4
             pairs = concatenate_decisions(episodes[-improver.replay :])
             rewards = decision_rewards(theta, pairs)  # theta . f(s, a)
-            fraction = (len(episodes) - 1) / max(total - 1, 1)
+            fraction = (len(episodes) - 1) / max(iterations - 1, 1)
             network, cost = improver.improve(network, pairs, rewards, fraction, rng)
             yield Iteration(episodes[-1], theta, network, cost)
             policy = exploring_policy(network, inverse_temperature)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robonav.documentation import documents
+from robonav.documentation import documents, with_signature
 from robonav.networks import random_network
 from robonav.networks.multilayer_perceptron import Network
 from robonav.networks.network_stack import NetworkStack, stacked
@@ -326,8 +326,8 @@ def training_method(
             recorder.add(iteration)
         return recorder.result(score)
 
-    train.__signature__ = signature  # type: ignore[attr-defined]
-    return checked(documents(DOCUMENTED, returns="IRLResult")(train))
+    documented = documents(DOCUMENTED, returns="IRLResult")
+    return checked(documented(with_signature(train, signature)))
 
 
 MADE = ("network", "rng")

@@ -134,12 +134,15 @@ def test_three_in_a_row_are_mastered_with_the_keys_alone(
     drill = drill_of(visit, "bellman-backup")
     tab_to(visit, drill.locator("> summary"))
     visit.page.keyboard.press("Enter")
+    verdict = drill.locator(".verdict")
     for _ in range(3):
+        expect(verdict).to_be_attached()  # the question is drawn
+        expect(verdict).to_be_empty()  # and it is a new one
         asked = asked_by(drill)
         tab_to(visit, drill.get_by_label("Your answer"))
         visit.page.keyboard.type(str(right_answer(asked)))
         visit.page.keyboard.press("Enter")
-        assert shown_by(drill)["verdict"] == "Right."
+        expect(verdict).to_have_text("Right.")
         tab_to(visit, drill.get_by_role("button", name="Next question"))
         visit.page.keyboard.press("Enter")
         expect(drill.get_by_label("Your answer")).to_be_focused()

@@ -74,17 +74,18 @@ def evaluate_team(case: Case, seed: int, scale: str) -> Numbers:
 
 
 def rule(looks: str, turns: str) -> Policy:
-    """Return a rule: if something is nearer than 6 m in these sectors, turn 60 degrees; else go forward.
+    """Return a rule: if something is nearer than 6 m in the sectors of ``LOOKS[looks]``, turn; else go forward.
 
     With ``ahead`` and ``to the freer side`` it is :func:`robonav.robot.turn_to_clearer_side`.
     """
 
     def policy(sensing: Sensing, rng: np.random.Generator) -> NDArray[np.int64]:
-        ranges = sensing.ranges
-        freer_left = ranges[:, 1:3].min(axis=1) > ranges[:, 7:9].min(axis=1)
-        left = freer_left & (turns == "to the freer side")
-        near = ranges[:, LOOKS[looks]].min(axis=1) < 6
-        return np.where(near, np.where(left, Action.L60, Action.R60), Action.F)
+        left = sensing.ranges[:, 1:3].min(axis=1)
+        right = sensing.ranges[:, 7:9].min(axis=1)
+        to_left = (left > right) & (turns == "to the freer side")
+        turn = np.where(to_left, Action.L60, Action.R60)
+        near = sensing.ranges[:, LOOKS[looks]].min(axis=1) < 6
+        return np.where(near, turn, Action.F)
 
     return policy
 

@@ -1,6 +1,6 @@
 """The numbers that the page "A neural network, by hand" works by hand are those of the package."""
 
-from pathlib import Path
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -14,7 +14,6 @@ from robonav.networks import (
     squared_error_gradient,
 )
 
-PAGE = Path(__file__).parents[3] / "book" / "neural-network.md"
 SMALL = Network(
     weights=(np.array([[0.5, -0.5], [1, 0.5]]), np.array([[1.0, -1], [2, 1]])),
     biases=(np.array([0.5, -1]), np.array([0.0, -1])),
@@ -23,11 +22,9 @@ X, Y = np.array([[1.0, 2]]), np.array([[1.0, 0]])
 
 
 @pytest.fixture
-def worked() -> str:
+def worked(page_text: Callable[[str], str]) -> str:
     """The two sections with the passes by hand, and those on the costs."""
-    if not PAGE.is_file():
-        pytest.skip("the book is not here")
-    text = PAGE.read_text("utf-8")
+    text = page_text("neural-network")
     first, last = "### A forward pass by hand", "### With matrices"
     return text[text.index(first) : text.index(last)]
 
@@ -51,9 +48,8 @@ def test_forward_and_backward_pass(worked):
     assert missing == []
 
 
-def test_errors_of_the_cross_entropy():
-    by = cross_entropy_gradient(SMALL, X, Y)
-    text = PAGE.read_text("utf-8") if PAGE.is_file() else "-0.5575 0.6750 0.1981"
+def test_errors_of_the_cross_entropy(page_text):
+    by, text = cross_entropy_gradient(SMALL, X, Y), page_text("neural-network")
     for number in (*by.biases[1], by.biases[0][0]):
         assert f"{number:.4f}" in text
 

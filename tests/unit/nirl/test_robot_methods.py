@@ -16,7 +16,9 @@ from robonav.nirl import (
     LeastSquaresReward,
     ReplaySGD,
     RobotTask,
+    TabularTask,
     accuracy,
+    apprenticeship,
     expert_decisions,
     from_all_states,
     from_initial_state,
@@ -140,6 +142,22 @@ def test_every_method_learns_and_repeats(demonstrations, method):
     assert navigate(
         one.policy, random_worlds(3, 10, seed=0), max_steps=20
     ).outcome.shape == (3,)
+
+
+@pytest.mark.parametrize(("n_rewards", "guessed"), [(3, 3), (7, 7), (9, 7)])
+def test_rewards_share_all_iterations(terrain, n_rewards, guessed):
+    """Also where their numbers do not divide, and where there are more rewards than iterations."""
+    task = TabularTask(terrain.task)
+    shown, done = task.demonstrate(terrain.expert, 5, seed=1), []
+    found = apprenticeship(
+        shown,
+        task,
+        n_rewards=n_rewards,
+        iterations=7,
+        progress=lambda *n: done.append(n),
+    )
+    assert done == [(k, 7) for k in range(1, 8)]
+    assert len(np.unique(found.history.weights, axis=0)) == guessed
 
 
 @pytest.mark.parametrize("method", METHODS)

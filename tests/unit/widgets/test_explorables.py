@@ -2,7 +2,6 @@
 
 import inspect
 import re
-from pathlib import Path
 
 import gymnasium as gym
 import numpy as np
@@ -435,11 +434,8 @@ def test_the_policy_decides_where_python_says(compute, speed):
             assert round(100 * (kinds == 1).sum() / (kinds < 3).sum()) == 67
 
 
-def test_page_of_the_robot_says_in_how_many_places_the_policy_decides():
+def test_page_of_the_robot_says_in_how_many_places_the_policy_decides(page_text):
     """The answer has the shares of the free places: among 10 obstacles, among 30, and with a range of 4 m."""
-    page = Path(__file__).parents[3] / "book" / "robot.md"
-    if not page.is_file():
-        pytest.skip("the book is not here")
     middles = np.arange(1.0, 100, 2)
     places = np.stack(np.meshgrid(middles, middles), axis=-1).reshape(-1, 2)
     shares = []
@@ -454,7 +450,7 @@ def test_page_of_the_robot_says_in_how_many_places_the_policy_decides():
         shares.append((free & (nearest < sight) & ~blocked).sum() / free.sum())
     said = re.search(
         r"In (\d+) %, on this map.*?30 obstacles it is (\d+) %.*?it would be (\d+) %",
-        page.read_text("utf-8"),
+        page_text("robot"),
         re.S,
     )
     assert [int(number) for number in said.groups()] == [
