@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from robonav import mdp, robot
+from robonav.benchmark.policies import method
 from robonav.mdp.belief_planning import backup
 from robonav.robot._fast import constants
 
@@ -265,6 +266,33 @@ def test_reading_of_a_circle_beside_the_sector(written):
     assert_written(text, [along, beside, half, reading], 2)
 
 
+@pytest.mark.slow
+def test_one_drive(written):
+    """The readings at place 2 of the first drive, the turn, and the collision of going straight on."""
+    text = written("introduction", "At place 1 nothing", "```{slide}")
+    world = robot.random_worlds(1, 15, seed=3)
+    path = robot.navigate(method("dagger"), world, record_paths=True).paths[0]
+    first, second = (robot.sense(world, [path[step]]) for step in (4, 11))
+    assert (first.ranges == 10).all()
+    near = np.flatnonzero(second.ranges[0] < 10)
+    assert near.tolist() == [0, 2, 3, 8]
+    for reading in second.ranges[0, near]:
+        assert f"{reading:.1f} m" in text
+    assert second.target_region.tolist() == [1]
+    assert np.degrees(path[12, 2] - path[11, 2]) == pytest.approx(60)
+    assert "to the left by 60°" in text
+    along = np.linspace(0, 10, 1001)[:, None]
+    to_the_right, straight_on = (
+        robot.clearance(
+            world[np.zeros(len(along), int)],
+            path[11, :2] + along * [np.cos(heading), np.sin(heading)],
+        )
+        for heading in path[11, 2] - np.radians([30, 0])
+    )
+    assert 2 < along[to_the_right < 1][0, 0] < 4  # in the second step of 2 m
+    assert f"passed the rectangle at {straight_on.min():.1f} m" in text
+
+
 def test_a_belief_update(written):
     text = written("partial-observation", "### An update by hand", "```{code-cell}")
     three = mdp.corridor("D..", accuracy=0.9, slip=0.1)
@@ -298,6 +326,18 @@ def test_three_plans_for_the_tiger(written):
     for vector in vectors:
         assert f"[{vector[0]:.2f}, {vector[1]:.2f}]" in text
     assert f"$[{waits[0]:.2f}, {waits[1]:.2f}]$" in text
+
+
+def test_belief_of_two_poses_after_a_reading(written):
+    text = written("partial-observation", "**By hand.**", "{dropdown} The model")
+    errors = 4.5 - np.array([4.0, 6.0])
+    exponents = -(errors**2) / (2 * 0.9**2)
+    odds = np.exp(exponents[0] - exponents[1])
+    assert_written(text, np.abs(exponents), 3)
+    assert_written(text, [odds], 2)
+    for readings in (1, 2):
+        belief = np.array([odds**readings, 1]) / (odds**readings + 1)
+        assert f"[{belief[0]:.2f}, {belief[1]:.2f}]" in text
 
 
 def test_qmdp_at_the_fork(written):
