@@ -43,17 +43,18 @@ def made(tmp_path_factory):
     """
 
     @functools.cache
+    def written(exercise, values):
+        folder = tmp_path_factory.mktemp(exercise.name)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(os, "fsync", lambda file: None)  # many small files
+            course = variants.write_values(COURSE, {exercise.id: dict(values)}, folder)
+        return course, Solutions(course)
+
     def of(exercise, every=False):
-        found, tried = [], variants.combinations(variants.knobs(COURSE, exercise))
+        tried = variants.combinations(variants.knobs(COURSE, exercise))
         if exercise in LONG and not every:
             tried = variants.covering(tried)
-        for values in tried:
-            folder = tmp_path_factory.mktemp(exercise.name)
-            with pytest.MonkeyPatch.context() as patch:
-                patch.setattr(os, "fsync", lambda file: None)  # many small files
-                course = variants.write_values(COURSE, {exercise.id: values}, folder)
-            found.append((values, course, Solutions(course)))
-        return found
+        return [(values, *written(exercise, tuple(values.items()))) for values in tried]
 
     return of
 
