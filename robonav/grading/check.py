@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from . import frames
@@ -109,24 +109,19 @@ def remarks(loaded: Submission | Refused, session: Session) -> dict[str, Any]:
         *(f"{name} is not a complete notebook" for name in sorted(session.damaged)),
     ]
     whole = {n: file for n, file in loaded.files.items() if n not in session.damaged}
-    if whole and not session.found and not session.unwritten:
-        problems += _without_functions(whole)
+    empty = [name for name, file in sorted(whole.items()) if _is_empty(name, file)]
+    problems += [f"{name} is empty" for name in empty]
+    others = sorted(set(whole) - set(empty))
+    if others and not session.found and not session.unwritten:
+        names = ", ".join(others[:5])
+        problems.append(f"no function of an exercise was found in {names}")
     files = dict(sorted(session.found.items()))
     return {"files": files, "notes": list(loaded.notes), "problems": problems}
 
 
-def _without_functions(files: Mapping[str, bytes]) -> list[str]:
-    """Say of files in which no function of an exercise was found whether they are empty."""
-    empty = sorted(name for name, content in files.items() if not content.strip())
-    others = sorted(set(files) - set(empty))
-    said = []
-    if empty:
-        are = "is" if len(empty) == 1 else "are"
-        said.append(f"{', '.join(empty[:5])} {are} empty")
-    if others:
-        names = ", ".join(others[:5])
-        said.append(f"no function of an exercise was found in {names}")
-    return said
+def _is_empty(name: str, content: bytes) -> bool:
+    """Whether a file has no text. An empty ``__init__.py`` is usual, and no answer."""
+    return not content.strip() and PurePosixPath(name).name != "__init__.py"
 
 
 def graded(

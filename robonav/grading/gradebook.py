@@ -116,13 +116,21 @@ class Account:
     open: bool = False
 
     @property
-    def total(self) -> float | None:
-        """The sum of the points that count, or None if it cannot be told yet."""
+    def status(self) -> str:
+        """Whether there is a mark: "graded", "open" if it cannot be told yet, or "nothing handed in"."""
+        decided = any(mark.by_hand for mark in self.marks.values())
+        if not (self.submission or self.open or decided):
+            return "nothing handed in"
         failed = any(
             mark.points is None and mark.state == "grader-fault"
             for mark in self.marks.values()
         )
-        return None if self.open or failed else self.points
+        return "open" if self.open or failed else "graded"
+
+    @property
+    def total(self) -> float | None:
+        """The sum of the points that count, or None if there is no mark: nothing handed in is not 0 points."""
+        return self.points if self.status == "graded" else None
 
     @property
     def points(self) -> float:
@@ -175,8 +183,22 @@ class Gradebook:
     notes: list[str] = field(default_factory=list)
 
     def account(self, word: str) -> Account:
-        """Return the account of the student with this id, name, login or address."""
-        student = one((account.student for account in self.accounts), word)
+        """Return the account of the student with this id, name, login or address, or with the submission of this name.
+
+        Raises
+        ------
+        ValueError
+            If there is no such student, or if several are meant.
+        """
+        students = [account.student for account in self.accounts]
+        if not fitting(students, word):
+            theirs = [one for one in self.accounts if word and one.submission == word]
+            if len(theirs) > 1:
+                whom = ", ".join(account.student.id for account in theirs)
+                raise ValueError(f"{word} is the submission of several students: {whom}")  # fmt: skip
+            if theirs:
+                return theirs[0]
+        student = one(students, word)
         return next(one for one in self.accounts if one.student is student)
 
 
@@ -397,7 +419,7 @@ def write_gradebook(book: Gradebook) -> None:
     """
     exercises = _exercises(book)
     rows: list[list[Any]] = [
-        ["student", "name", "group", "submission", "handed_in", "points", "max_points", "changed_by_hand"]
+        ["student", "name", "group", "submission", "handed_in", "status", "points", "max_points", "changed_by_hand"]
         + ["late", "problems", *exercises]
     ]  # fmt: skip
     for account in book.accounts:
@@ -409,6 +431,7 @@ def write_gradebook(book: Gradebook) -> None:
                 account.student.group,
                 account.submission,
                 account.handed_in,
+                account.status,
                 account.total,
                 account.most,
                 " ".join(id for id, mark in marks.items() if mark.by_hand),
@@ -547,11 +570,11 @@ def _account(
         problems.append("It is not certain which submission is this student's.")
     if grade and grade["tier"] == "practice":
         problems.append("Graded for practice, without a sandbox: these are no marks.")
-    answered = [id for id, e in entries.items() if e["state"] != "missing"]
+    answered = [] if refused else [id for id, e in entries.items() if e["state"] != "missing"]  # fmt: skip
     arrived = (
-        Arrival()
-        if refused or not submission
-        else arrival.of(student, submission, told, answered, book.rules, free)
+        arrival.of(student, submission, told, answered, book.rules, free)
+        if submission
+        else Arrival()
     )
     problems += [arrived.problem] if arrived.problem else []
     marks = {

@@ -206,6 +206,8 @@ def test_what_cannot_be_taken_has_no_mark_rather_than_zero(course, tmp_path):
         "lea/improve.py": PASSES,
         "lea/half.ipynb": "{",
         "lea/backup.py": "# to do",
+        "max/improve.py": PASSES,
+        "max/arrays.py": "\n",
     }
     for name in (
         "finn/report.pdf",
@@ -218,6 +220,8 @@ def test_what_cannot_be_taken_has_no_mark_rather_than_zero(course, tmp_path):
         "lea/improve.py",
         "lea/half.ipynb",
         "lea/backup.py",
+        "max/improve.py",
+        "max/arrays.py",
     ):
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_text(contents.get(name, "x = 1"))
@@ -235,30 +239,33 @@ def test_what_cannot_be_taken_has_no_mark_rather_than_zero(course, tmp_path):
         assert (marks[name]["points"], marks[name]["2.2"]) == ("", "")
         assert "Nothing of the submission could be taken: " in marks[name]["problems"]
     assert "hand in a zip" in marks["carl"]["problems"]
-    assert {name: points[name]["not_taken"] for name in ("ida", "jane", "kim", "lea")} == {
+    assert {name: points[name]["not_taken"] for name in ("ida", "jane", "kim", "lea", "max")} == {
         "ida": "improve.py is empty",
         "jane": "no function of an exercise was found in improve.py",
         "kim": "work.ipynb is not a complete notebook",
         "lea": "half.ipynb is not a complete notebook",
+        "max": "arrays.py is empty",
     }  # fmt: skip
-    assert marks["lea"]["points"] == "4.0"
+    assert marks["lea"]["points"] == marks["max"]["points"] == "4.0"
+    assert "exercises are missing: arrays.py is empty." in marks["max"]["problems"]
     assert (marks["eve"]["points"], points["eve"]["points"]) == ("0.0", "0")
     # Of hugo a part was taken, which counts, and what was not is said.
     assert marks["hugo"]["points"] == "4.0"
     assert "Not taken, though exercises are missing: more.rar" in marks["hugo"]["problems"]  # fmt: skip
     overview = (out / "index.html").read_text()
     red = overview[overview.index('<ul class="bad">') : overview.index("</ul>")]
-    assert all(f">{name}</a>: " in red for name in [*refused, "hugo", "lea"])
-    assert "12 students; of 8 nothing could be taken" in overview
+    assert all(f">{name}</a>: " in red for name in [*refused, "hugo", "lea", "max"])
+    assert "13 students; of 8 nothing could be taken" in overview
     for platform in exports.FORMATS:
         text = exports.marks_for(book, platform, "Work").splitlines()
         for name in refused:
             line = next(one for one in text if name in one)
             assert line.endswith(",") or ",,12,Ungraded," in line
     assert exports.unsettled(book) == refused
-    assert [said[:15] for said in exports.not_all_taken(book)] == ["hugo: Not taken", "lea: Not taken,"]  # fmt: skip
+    partly = [said[:15] for said in exports.not_all_taken(book)]
+    assert partly == ["hugo: Not taken", "lea: Not taken,", "max: Not taken,"]
     tried = class_statistics.counts(book)
-    assert {id: tried[id].attempted for id in ("2.1", "2.2")} == {"2.1": 0, "2.2": 3}
+    assert {id: tried[id].attempted for id in ("2.1", "2.2")} == {"2.1": 0, "2.2": 4}
     class_statistics.write_statistics(book)
     assert "8 of which nothing could be taken do not count" in (
         (out / "statistics.html").read_text()

@@ -11,6 +11,7 @@ import shutil
 import signal
 import time
 import zipfile
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -490,6 +491,7 @@ def test_what_the_platforms_tell_is_written_down(tmp_path, quick, files, told):
     assert list(found.values()) == [told]
 
 
+CANVAS_FILES = ["lovelaceada_17_99_a.py", "diddleybo_18_98_a.py"]
 COSTS = "[deadlines]\n2 = 2026-10-12T23:59:00\n[late]\npenalty = 10\n"
 
 
@@ -504,6 +506,40 @@ def class_of(tmp_path, files, roster, rules):
     (out / ROSTER).write_text(roster, "utf-8")
     (out / RULES).write_text(rules, "utf-8")
     return read_gradebook(out, COURSE)
+
+
+def test_who_handed_in_nothing_has_no_mark_rather_than_zero(tmp_path, quick):
+    """Until a mark is given by hand."""
+    text = CANVAS + '"Yu, Zoe",19,s3,zyu,A,\n'
+    book = class_of(tmp_path, CANVAS_FILES, text, "")
+    write_all(tmp_path / "out")
+
+    def columns(*names):
+        heading, *lines = rows((tmp_path / "out/marks.csv").read_text())
+        return [[line[heading.index(name)] for name in names] for line in lines]
+
+    nothing = "nothing handed in"
+    assert columns("status", "points") == [["graded", "8.0"]] * 2 + [[nothing, ""]]
+    page = (tmp_path / "out/marks.html").read_text()
+    assert f">{nothing}</td>" in page
+    assert "\N{EN DASH} of 8" in page
+    change(book, book.account("Zoe Yu"), "2.1", 0, "Did not come.", "Dr B.")
+    write_all(tmp_path / "out")
+    assert columns("status", "points")[2] == ["graded", "0.0"]
+
+
+def test_a_student_is_found_by_the_name_of_the_submission(tmp_path, quick):
+    book = class_of(tmp_path, CANVAS_FILES, CANVAS, "")
+    assert book.account("diddleybo").student.id == "s2"
+    with pytest.raises(ValueError, match="no student 'zoe'"):
+        book.account("zoe")
+    with pytest.raises(ValueError, match="no student ''"):
+        book.account("")
+    shared = [replace(account, submission="pair") for account in book.accounts]
+    with pytest.raises(
+        ValueError, match="pair is the submission of several students: s1, s2"
+    ):
+        replace(book, accounts=shared).account("pair")
 
 
 def test_canvas_names_tell_who_is_in_time_and_the_others_stay_open(tmp_path, quick):
