@@ -1,7 +1,7 @@
 """Chapter 6, deep reinforcement learning and imitation: PPO and GAIL."""
 
 from .adversarial_training import GAILResult, train_gail
-from .episodes import ppo_on_episodes
+from .episodes import ppo_on_episodes, ppo_on_rollouts
 from .gail import (
     best_discriminator,
     constant_reward,
@@ -44,6 +44,7 @@ __all__ = [
     "objective",
     "ppo",
     "ppo_on_episodes",
+    "ppo_on_rollouts",
     "random_discriminator",
     "train_gail",
     "train_ppo",

@@ -4,6 +4,7 @@ from .dagger import Episodes, dagger_with_memory, labelled_episodes
 from .gru import GRU
 from .networks import RecurrentNetwork, WindowNetwork
 from .policies import MemoryPolicy
+from .ppo import ppo_with_window
 
 __all__ = [
     "GRU",
@@ -13,4 +14,5 @@ __all__ = [
     "WindowNetwork",
     "dagger_with_memory",
     "labelled_episodes",
+    "ppo_with_window",
 ]

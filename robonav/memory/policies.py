@@ -55,11 +55,21 @@ class Memories:
         self, sensing: Sensing, robots: Actions
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Let the network read what robots (K,) sense; return its inputs (K, D) and its logits (K, 5)."""
+        x, logits, self.kept[robots] = self._step(sensing, robots)
+        return x, logits
+
+    def with_next(self, sensing: Sensing, robots: Actions) -> torch.Tensor:
+        """Return what the memories of robots (K,) will be when they have read this; they stay as they are."""
+        return self._step(sensing, robots)[2]
+
+    def _step(
+        self, sensing: Sensing, robots: Actions
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], torch.Tensor]:
+        """Return inputs, logits and new memories."""
         x = np.concatenate([self.encoder(sensing), self.last[robots]], axis=1)
         with torch.no_grad():
             logits, kept = self.network.step(self.kept[robots], torch.from_numpy(x))
-        self.kept[robots] = kept
-        return x, logits.numpy()
+        return x, logits.numpy(), kept
 
     def acted(self, robots: Actions, actions: Actions) -> None:
         """Remember what robots (K,) do now."""

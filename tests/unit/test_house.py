@@ -51,7 +51,7 @@ ALLOWED = {
     "nirl": {"mdp", "robot", "networks", "lfd", "nnql"},
     "planners": {"robot", "lfd"},
     "deep": {"mdp", "robot", "networks", "lfd", "nnql"},
-    "memory": {"robot", "networks", "lfd"},
+    "memory": {"robot", "networks", "lfd", "nnql", "deep"},
     "sensing": {"robot", "networks", "lfd"},
     "body": {"robot", "networks", "lfd", "nnql", "deep"},
     "experiments": CHAPTERS | {"benchmark"},
