@@ -235,6 +235,28 @@ def test_a_secret_never_chooses_the_books_exercise_and_another_chooses_others(ex
     assert all(values[knob.name] in knob.values for values in found for knob in of)
 
 
+def test_a_knob_of_few_parts_never_differs_alone():
+    few = variants.Knob("few", ("a", "b"), ("?",), alone=False)
+    exercise, of = VARIED[0], [few, variants.Knob("many", ("a", "b"), ("?",))]
+    found = [variants.chosen(f"term {k}", exercise, of) for k in range(12)]
+    assert {values["many"] for values in found} == {"b"}
+    assert {values["few"] for values in found} == {"a", "b"}
+
+
+@pytest.mark.slow
+def test_the_books_answer_earns_at_most_half_of_another_histogram(made):
+    exercise = COURSE.named("6.2")
+    of = variants.knobs(COURSE, exercise)
+    chosen = [variants.chosen(f"term {k}", exercise, of) for k in range(40)]
+    found = made(exercise)
+    function = solution(found[0][1], exercise)
+    tried = [(course, known) for values, course, known in found if values in chosen]
+    assert len(tried) == 6
+    for course, known in tried:
+        result = graded(course, exercise, InProcessCalls(function), known)
+        assert result["points"] <= exercise.points / 2
+
+
 def test_every_exercise_of_the_book_has_variants():
     assert variants.without_variants(COURSE) == []
 
