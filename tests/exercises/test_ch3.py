@@ -50,14 +50,14 @@ def readings(rng, reach, n=8):
     )
 
 
-@pytest.mark.part("3.2", points=2)
+@pytest.mark.part("3.2", points=1)
 def test_encode_readings(answer, rng):
     """Finds the degrees of danger for ranges of 10 m, 30 cm and others."""
     for reach in (10.0, 0.3, 3.0, 25.0):
         answer.agrees(*readings(rng, reach), at=np.s_[:, :9])
 
 
-@pytest.mark.part("3.2", points=1)
+@pytest.mark.part("3.2", points=2)
 def test_encode_all_around(answer, rng):
     """Gives the region of targets in all directions, also where the bearing contains full turns."""
     for turns in (-1, 0, 2):
