@@ -183,23 +183,23 @@ class Gradebook:
     notes: list[str] = field(default_factory=list)
 
     def account(self, word: str) -> Account:
-        """Return the account of the student with this id, name, login or address, or with the submission of this name.
+        """Return the account of the student with this id, or else the one student whom the word may mean.
+
+        It may be a name, login or address, or the name of the submission that counts.
 
         Raises
         ------
         ValueError
-            If there is no such student, or if several are meant.
+            If no student is meant, or several are.
         """
         students = [account.student for account in self.accounts]
-        if not fitting(students, word):
-            theirs = [one for one in self.accounts if word and one.submission == word]
-            if len(theirs) > 1:
-                whom = ", ".join(account.student.id for account in theirs)
-                raise ValueError(f"{word} is the submission of several students: {whom}")  # fmt: skip
-            if theirs:
-                return theirs[0]
-        student = one(students, word)
-        return next(one for one in self.accounts if one.student is student)
+        fits = {student.id for student in fitting(students, word)}
+        if word not in fits:
+            fits |= {one.student.id for one in self.accounts if word and one.submission == word}  # fmt: skip
+        if len(fits) > 1:
+            raise ValueError(f"several students fit {word!r}: {', '.join(sorted(fits))}")  # fmt: skip
+        id = fits.pop() if fits else one(students, word).id
+        return next(one for one in self.accounts if one.student.id == id)
 
 
 def read_gradebook(folder: Path, course: Course) -> Gradebook:

@@ -535,11 +535,16 @@ def test_a_student_is_found_by_the_name_of_the_submission(tmp_path, quick):
         book.account("zoe")
     with pytest.raises(ValueError, match="no student ''"):
         book.account("")
-    shared = [replace(account, submission="pair") for account in book.accounts]
-    with pytest.raises(
-        ValueError, match="pair is the submission of several students: s1, s2"
-    ):
-        replace(book, accounts=shared).account("pair")
+    pair = replace(
+        book, accounts=[replace(a, submission="pair") for a in book.accounts]
+    )
+    with pytest.raises(ValueError, match="several students fit 'pair': s1, s2"):
+        pair.account("pair")
+    ada, bo = book.accounts
+    clash = replace(book, accounts=[replace(ada, submission="bdiddley"), bo])
+    with pytest.raises(ValueError, match="several students fit 'bdiddley': s1, s2"):
+        clash.account("bdiddley")
+    assert clash.account("s1") is clash.accounts[0]
 
 
 def test_canvas_names_tell_who_is_in_time_and_the_others_stay_open(tmp_path, quick):
