@@ -15,6 +15,7 @@ from robonav.memory import (
     WindowNetwork,
     dagger_with_memory,
     labelled_episodes,
+    ppo_with_window,
 )
 from robonav.robot import (
     Encoder,
@@ -29,6 +30,7 @@ from ..runner.experiment import SUCCESS_BARS, Case, Experiment, Numbers
 from .setup import CONDITIONS
 
 MEMORY: dict[str, Any] = CONDITIONS["memory"]
+PPO: dict[str, Any] = CONDITIONS["memory-ppo"]
 PROBED = 12.0  # metres before the end of the corridor: the robot knows nothing of the crossing yet
 
 
@@ -62,8 +64,31 @@ def trained_policy(case: Case, seed: int, scale: str) -> MemoryPolicy:
 
 
 def train_and_test(case: Case, seed: int, scale: str) -> Numbers:
-    """One training and its test, and what a line reads from the memory about the niche."""
-    policy = trained_policy(case, seed, scale)
+    """One training by DAgger and its test."""
+    return numbers_of(trained_policy(case, seed, scale), seed, scale)
+
+
+def reinforce_and_test(case: Case, seed: int, scale: str) -> Numbers:
+    """One training by PPO from random weights, and its test."""
+    policy = ppo_with_window(
+        new_policy(case, seed),
+        new_crossings,
+        PPO["updates"][scale],
+        gradient_step=PPO["gradient_step"],
+        entropy_weight=PPO["entropy_weight"],
+        seed=PPO["training_seed"] + seed,
+    )
+    return numbers_of(policy, seed, scale)
+
+
+def new_crossings(rng: np.random.Generator) -> Simulator:
+    """Return robots at the start of new worlds, in which nobody is tested: those have smaller seeds."""
+    drawn = int(rng.integers(PPO["first_world_seed"], 2**31))
+    return Simulator(crossing_worlds(PPO["robots"], seed=drawn), max_steps=SECONDS)
+
+
+def numbers_of(policy: MemoryPolicy, seed: int, scale: str) -> Numbers:
+    """The test of a policy, and what a line reads from its memory about the niche."""
     worlds = crossing_worlds(MEMORY["tests"][scale], seed=MEMORY["test_seed"] + seed)
     ends = navigate(policy, worlds, 2.0, SECONDS, reflex=None)
     longer = navigate(policy, worlds, 2.0, MEMORY["patience"], reflex=None)
@@ -77,9 +102,11 @@ def probe(policy: MemoryPolicy, worlds: Worlds) -> float:
     """Return for how many worlds (per cent) a line reads from the memory on which side the niche was.
 
     The memory is that of the first step in the last 12 m of the corridor. A half of the worlds fits the line by least
-    squares, and the other half tests it.
+    squares, and the other half tests it. If fewer than two robots come to this place, it is 50, as by chance.
     """
     memories, left = memories_before_the_crossing(policy, worlds)
+    if len(left) < 2:
+        return 50.0
     half = len(left) // 2
     x = np.column_stack([memories, np.ones(len(memories))])
     gram = x[:half].T @ x[:half] + np.eye(x.shape[1])
@@ -108,6 +135,8 @@ def memories_before_the_crossing(
         late = np.flatnonzero(np.array(along) > CORRIDOR[1] - PROBED)
         if len(late):
             found[robot] = states[late[0], robot]
+    if not found:
+        return np.empty((0, 1)), np.empty(0, dtype=bool)
     rows = np.array(list(found.values())).reshape(len(found), -1)
     return rows, open_on_the_left(worlds)[list(found)]
 
@@ -139,6 +168,24 @@ EXPERIMENTS = (
         settings={name: value for name, value in MEMORY.items() if name != "seeds"},
         shortened="A quick run trains in two rounds of six worlds, with 20 steps of Adam in each.",
         note="A recurrent network has no window; its k is 0. An episode has 90 s.",
+        plot=SUCCESS_BARS,
+    ),
+    Experiment(
+        name="memory-ppo",
+        title="Success at crossings of policies that learn by PPO and see the last k steps",
+        cases=[
+            {"network": "window", "k": 1, "reflex": "none"},
+            {"network": "window", "k": 20, "reflex": "none"},
+        ],
+        run=reinforce_and_test,
+        seeds=PPO["seeds"],
+        settings={name: value for name, value in PPO.items() if name != "seeds"}
+        | {
+            name: MEMORY[name]
+            for name in ("hidden", "temperature", "tests", "test_seed", "patience")
+        },
+        shortened="A quick run has two updates.",
+        note="The weights are random at first, and there is no expert. An arrival earns 1, a collision -1.",
         plot=SUCCESS_BARS,
     ),
 )
