@@ -112,7 +112,7 @@ def test_a_readers_method_stands_on_the_board(tmp_path, monkeypatch):
     mine, rule = [
         line
         for line in shown.stdout.splitlines()
-        if line.startswith(("| mine.py", "| freer-side"))
+        if line.startswith(("| mine.py", "| freer side"))
     ]
     assert mine.split("|")[2:] == rule.split("|")[2:]
     cases = json.loads((tmp_path / "board.json").read_text())[0]["cases"]
