@@ -198,7 +198,9 @@ def draw_board(results: Results, metric: str) -> Figure:
             color="white" if mean > 60 else "black",
         )
     axes.set(
-        xticks=range(len(settings)), yticks=range(len(methods)), yticklabels=methods
+        xticks=range(len(settings)),
+        yticks=range(len(methods)),
+        yticklabels=list(map(display_name, methods)),
     )
     axes.set_xticklabels(settings, rotation=90, va="bottom")
     axes.tick_params(top=True, bottom=False, labeltop=True, labelbottom=False, length=0)

@@ -3,10 +3,12 @@
 import re
 
 import pytest
+from matplotlib import pyplot as plt
 
 from robonav.benchmark import DISPLAY_NAMES, display_name, methods
-from robonav.experiments import experiment, names
+from robonav.experiments import experiment, names, read_results
 from robonav.nirl import METHODS
+from robonav.plots.experiments import draw_board
 
 OTHER_WORDS = {
     "method": {
@@ -49,3 +51,10 @@ def test_every_name_with_a_hyphen_has_a_display_name():
         assert "-" not in display_name(name) or name == "q-learning"
     assert set(DISPLAY_NAMES) <= COMPARED
     assert len({display_name(name) for name in COMPARED}) == len(COMPARED)
+
+
+def test_the_board_names_methods_as_pages_do():
+    figure = draw_board(read_results("leaderboard"), "success")
+    labels = [label.get_text() for label in figure.axes[0].get_yticklabels()]
+    assert labels == [display_name(name) for name in methods()]
+    plt.close(figure)
