@@ -12,7 +12,6 @@ machine that others use too, and ``--json FILE`` writes what was measured.
 
 from __future__ import annotations
 
-import argparse
 import json
 import tempfile
 import time
@@ -22,7 +21,7 @@ from pathlib import Path
 import gymnasium
 import numpy as np
 from numpy.typing import NDArray
-from peer_process import lines_of_peer
+from peer_process import add_processor_clock, lines_of_peer, parser_with_peers
 
 from robonav import atomic
 from robonav.deep import actor_critic, constant_reward, gail, random_discriminator
@@ -98,15 +97,8 @@ def line(name: str, scores: list[float], speed: float) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "--peers", type=Path, help="folder with the peers' virtual environments"
-    )
-    parser.add_argument(
-        "--cpu", action="store_true", help="count seconds of the processor"
-    )
+    parser = parser_with_peers(__doc__)
+    add_processor_clock(parser)
     parser.add_argument("--json", type=Path, help="write what was measured")
     options = parser.parse_args()
     clock = time.process_time if options.cpu else time.perf_counter

@@ -10,14 +10,13 @@ machine that others use too.
 
 from __future__ import annotations
 
-import argparse
 import statistics
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
-from peer_process import printed_by_peer
+from peer_process import add_processor_clock, parser_with_peers, printed_by_peer
 
 from robonav.nnql import train
 
@@ -42,15 +41,8 @@ def peer(folder: Path, *options: str) -> float:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "--peers", type=Path, help="folder with the peers' virtual environments"
-    )
-    parser.add_argument(
-        "--cpu", action="store_true", help="count seconds of the processor"
-    )
+    parser = parser_with_peers(__doc__)
+    add_processor_clock(parser)
     options = parser.parse_args()
     clock = time.process_time if options.cpu else time.perf_counter
     extra = ["--cpu"] if options.cpu else []

@@ -1,12 +1,31 @@
-"""A peer that is timed in a virtual environment of its own."""
+"""A peer that is timed in a virtual environment of its own, and the options that name it."""
 
 from __future__ import annotations
 
+import argparse
 import os
 import subprocess
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parent / "peers"
+
+
+def parser_with_peers(description: str | None) -> argparse.ArgumentParser:
+    """The command line of a script that runs peers beside ours."""
+    parser = argparse.ArgumentParser(
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--peers", type=Path, help="folder with the peers' virtual environments"
+    )
+    return parser
+
+
+def add_processor_clock(parser: argparse.ArgumentParser) -> None:
+    """Add the option for a machine that others use too."""
+    parser.add_argument(
+        "--cpu", action="store_true", help="count seconds of the processor"
+    )
 
 
 def printed_by_peer(

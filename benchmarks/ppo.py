@@ -11,13 +11,12 @@ one of one actor, learning included. ``--cpu`` counts seconds of the processor, 
 
 from __future__ import annotations
 
-import argparse
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
-from peer_process import printed_by_peer
+from peer_process import add_processor_clock, parser_with_peers, printed_by_peer
 
 from robonav.deep import train_ppo
 from robonav.experiments.chapter6.ppo import TRAINING, task
@@ -34,15 +33,8 @@ def peer(folder: Path, *options: str) -> float:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "--peers", type=Path, help="folder with the peers' virtual environments"
-    )
-    parser.add_argument(
-        "--cpu", action="store_true", help="count seconds of the processor"
-    )
+    parser = parser_with_peers(__doc__)
+    add_processor_clock(parser)
     options = parser.parse_args()
     clock = time.process_time if options.cpu else time.perf_counter
     train_ppo(1, 1, actors=2, steps=4)  # compiled

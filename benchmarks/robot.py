@@ -9,7 +9,6 @@ to another; the ratios do, roughly.
 
 from __future__ import annotations
 
-import argparse
 import os
 import statistics
 import subprocess
@@ -18,10 +17,9 @@ import tempfile
 import time
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
 
 import gymnasium
-from peer_process import printed_by_peer
+from peer_process import parser_with_peers, printed_by_peer
 from timing import in_turn
 
 import robonav  # noqa: F401  (registers the environments)
@@ -97,13 +95,7 @@ def seconds(code: str, **environment: str) -> float:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "--peers", type=Path, help="folder with the peers' virtual environments"
-    )
-    folder = parser.parse_args().peers
+    folder = parser_with_peers(__doc__).parse_args().peers
     import_and_compile()
     ours, peer, ratio = in_turn(
         single(NAME, obstacles=20), single("CartPole-v1"), ROUNDS

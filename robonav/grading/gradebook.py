@@ -193,13 +193,15 @@ class Gradebook:
             If no student is meant, or several are.
         """
         students = [account.student for account in self.accounts]
-        fits = {student.id for student in fitting(students, word)}
-        if word not in fits:
-            fits |= {one.student.id for one in self.accounts if word and one.submission == word}  # fmt: skip
-        if len(fits) > 1:
-            raise ValueError(f"several students fit {word!r}: {', '.join(sorted(fits))}")  # fmt: skip
-        id = fits.pop() if fits else one(students, word).id
-        return next(one for one in self.accounts if one.student.id == id)
+        fits = fitting(students, word)
+        if word and word not in [student.id for student in fits]:
+            fits = [
+                account.student
+                for account in self.accounts
+                if account.student in fits or account.submission == word
+            ]
+        student = one(fits, students, word)
+        return next(account for account in self.accounts if account.student is student)
 
 
 def read_gradebook(folder: Path, course: Course) -> Gradebook:

@@ -388,8 +388,8 @@ def fitting(students: Iterable[Student], word: str) -> list[Student]:
     ]
 
 
-def one(students: Iterable[Student], word: str) -> Student:
-    """Return the student with this id, name, login or address.
+def one(fits: Sequence[Student], students: Sequence[Student], word: str) -> Student:
+    """Return the only one of the students whom a word fits; ``students`` are all there are.
 
     Raises
     ------
@@ -398,13 +398,12 @@ def one(students: Iterable[Student], word: str) -> Student:
 
     Examples
     --------
-    >>> one([Student("s1", "Ada Lovelace", names=frozenset(forms("Ada Lovelace")))], "ada lovelace").id
+    >>> known = [Student("s1", "Ada Lovelace", names=frozenset(forms("Ada Lovelace")))]
+    >>> one(fitting(known, "ada lovelace"), known, "ada lovelace").id
     's1'
     """
-    known = list(students)
-    fits = fitting(known, word)
     if len(fits) != 1:
-        whom = ", ".join(student.id for student in fits or known[:20])
+        whom = ", ".join(student.id for student in fits or students[:20])
         raise ValueError(
             f"several students fit {word!r}: {whom}"
             if fits

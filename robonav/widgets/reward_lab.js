@@ -45,8 +45,7 @@ const unit = (r, scale) => (scale > 0 ? (Math.min(Math.max(r / scale, -1), 1) + 
 
 /**
  * The value of each action, `depth` decisions ahead: (1 - discount) r + discount times the largest value that
- * follows, in [0, 1]. The value of a
- * collision is 0, that of an arrival is 1, and that of a state farther ahead is 1/2.
+ * follows, in [0, 1]. The value of a collision is 0, that of an arrival is 1, and that of a state farther ahead is 1/2.
  */
 export function valuesAhead(plan, { world, pose, step, sensing }, depth) {
   const r = rewardsOf(plan.theta, encode(plan.encoder, sensing));

@@ -135,10 +135,7 @@ def memories_before_the_crossing(
         late = np.flatnonzero(np.array(along) > CORRIDOR[1] - PROBED)
         if len(late):
             found[robot] = states[late[0], robot]
-    if not found:
-        return np.empty((0, 1)), np.empty(0, dtype=bool)
-    rows = np.array(list(found.values())).reshape(len(found), -1)
-    return rows, open_on_the_left(worlds)[list(found)]
+    return np.array(list(found.values())), open_on_the_left(worlds)[list(found)]
 
 
 def _memories(policy: MemoryPolicy, inputs: Any) -> NDArray[np.float64]:

@@ -37,11 +37,9 @@ def trained(name: str, seed: int, scale: str) -> SensorPolicy | MemoryPolicy:
     """Return the policy of a row. Rows of one seed learn in the same worlds."""
     if name in SENSORS:
         return sensing.trained_policy(SENSORS[name], seed, scale)
-    first = TRAINING["seed"] + 100 * seed
-    rounds = range(TRAINING["rounds"][scale])
     return dagger_with_memory(
         memory.new_policy(MEMORIES[name], seed),
-        [SETUP.worlds(TRAINING["worlds"][scale], first + r) for r in rounds],
+        sensing.training_worlds(seed, scale),
         reflex=SETUP.reflex,
         validation=SETUP.tuning_worlds(seed, VALIDATION),
         steps=MEMORY["steps"][scale],

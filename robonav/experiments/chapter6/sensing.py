@@ -9,7 +9,7 @@ import numpy as np
 
 from robonav.benchmark import outcome_rates
 from robonav.lfd import ComputerExpert
-from robonav.robot import Simulator, navigate, neighbour_slip
+from robonav.robot import Simulator, Worlds, navigate, neighbour_slip
 from robonav.sensing import (
     Picture,
     Ring,
@@ -49,15 +49,19 @@ def new_policy(case: Case, seed: int) -> SensorPolicy:
     return SensorPolicy(sensor, network, TRAINING["temperature"])
 
 
+def training_worlds(seed: int, scale: str) -> list[Worlds]:
+    """Return the worlds of each round of a training, which are used for nothing else."""
+    first = TRAINING["seed"] + 100 * seed
+    rounds = range(TRAINING["rounds"][scale])
+    return [SETUP.worlds(TRAINING["worlds"][scale], first + r) for r in rounds]
+
+
 def trained_policy(
     case: Case, seed: int, scale: str, *, noise: float = 0.0, slip: float = 0.0
 ) -> SensorPolicy:
-    """Train the policy of a case in worlds that are used for nothing else, whose uncertainties are at most these."""
-    first = TRAINING["seed"] + 100 * seed
-    rounds = range(TRAINING["rounds"][scale])
-    worlds = [SETUP.worlds(TRAINING["worlds"][scale], first + r) for r in rounds]
+    """Train the policy of a case, in simulators whose uncertainties are at most these."""
     simulators = randomised_simulators(
-        worlds,
+        training_worlds(seed, scale),
         noise=noise,
         slip=slip,
         speed=SETUP.speed,

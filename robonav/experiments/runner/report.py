@@ -70,18 +70,7 @@ def as_table(
     | 1      | 1.00 | 2.00 |
     | 2      | 3.00 | 4.00 |
     """
-    import pandas as pd
-
-    cells = pd.DataFrame(
-        {
-            rows: [
-                display_name(str(case[rows])) if rows == "method" else str(case[rows])
-                for case in results.experiment.cases
-            ],
-            columns: [str(case[columns]) for case in results.experiment.cases],
-            "cell": _cells(results, metric),
-        }
-    )
+    cells = _settings(results)[[rows, columns]].assign(cell=_cells(results, metric))
     table = cells.pivot_table(
         index=rows, columns=columns, values="cell", aggfunc="first", sort=False
     )
@@ -115,15 +104,10 @@ def as_markdown(results: Results, metrics: Sequence[str]) -> str:
     |:--------|:-------|
     | 6       | 3.50   |
     """
-    import pandas as pd
-
-    experiment = results.experiment
-    places = range(len(experiment.cases))
-    table = pd.DataFrame(list(experiment.cases)).astype(str)
+    places = range(len(results.experiment.cases))
+    table = _settings(results)
     varied = [key for key in table if table[key].nunique() > 1]
     table = table[varied or list(table)]
-    if "method" in table:
-        table["method"] = table["method"].map(display_name)
     for metric in metrics:
         table[metric] = _cells(results, metric)
     for metric in metrics:
@@ -131,6 +115,16 @@ def as_markdown(results: Results, metrics: Sequence[str]) -> str:
         if any(number is not None for number in numbers):
             table[f"{metric}, thesis"] = ["" if n is None else f"{n:g}" for n in numbers]  # fmt: skip
     return _markdown(table)
+
+
+def _settings(results: Results) -> Any:
+    """Return a data frame with the settings of each case as text. Methods have their names on pages."""
+    import pandas as pd
+
+    table = pd.DataFrame(list(results.experiment.cases)).astype(str)
+    if "method" in table:
+        table["method"] = table["method"].map(display_name)
+    return table
 
 
 def thesis_number(results: Results, metric: str, case: int) -> float | None:

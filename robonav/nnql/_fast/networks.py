@@ -23,10 +23,8 @@ class BatchedNetworks:
     """
 
     def __init__(self, network: NetworkStack) -> None:
-        self._parameters, self._outputs = (
-            parameters_to_vectors(network),
-            network.sizes[-1],
-        )
+        self._parameters = parameters_to_vectors(network)
+        self._outputs = network.sizes[-1]
 
     def logits(self, rows: Rows, x: Array) -> Array:
         """Logits (K, m, A) of the networks ``rows`` (K,), each for m inputs of its own: ``x`` (K, m, n)."""
