@@ -129,6 +129,12 @@ SCRIPTS = {  # heading: script, options, whether it knows peers, what one should
         False,
         "Two hundred different papers of drills, with worked solutions, as PDF.",
     ),
+    "Slides": (
+        "slides.py",
+        (),
+        False,
+        "`make slides` after `make book`: one deck for each lecture.",
+    ),
 }
 INTRODUCTION = """# How fast it is
 
